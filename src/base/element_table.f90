@@ -81,7 +81,7 @@ contains
 
    !> Place in KINDS of a name in capitals; 0: there is none. A membrane (M3D4) of the plane is in plane stress (CPS4).
    pure integer(ip) function kind_named(name)
-      character(len=*), intent(in) :: name
+      character(len=*), intent(in) :: name !< in capitals, without blanks at its end
 
       if (is_membrane(name)) then
          kind_named = findloc(KINDS%name, 'CPS'//name(4:), dim=1, kind=ip)
@@ -92,33 +92,32 @@ contains
 
    !> Whether the name of an element, in capitals, is that of a membrane: M3D3, M3D4, ... They are read as plane stress.
    pure logical function is_membrane(name)
-      character(len=*), intent(in) :: name
+      character(len=*), intent(in) :: name !< in capitals
 
       is_membrane = index(name, 'M3D') == 1
    end function is_membrane
 
    !> Place in KINDS of a shape in a plane state.
    pure integer(ip) function kind_of(shape, state)
-      integer(ip), intent(in) :: shape, state
+      integer(ip), intent(in) :: shape, state !< place in SHAPES; place in STATES
 
       kind_of = findloc(KINDS%shape == shape .and. KINDS%state == PLAIN_STATE(state), .true., dim=1, kind=ip)
    end function kind_of
 
    !> Whether the strains of an element may have one dilatation, its mean (B-bar): four nodes without strain across the plane.
    !> In plane stress the thickness gives way and nothing locks; elements of the second degree hardly lock, and with reduced
-   !> integration none does. The dilatation of three
-   !> nodes is constant anyway.
+   !> integration none does. The dilatation of three nodes is constant anyway.
    pure logical function can_average(shape, state)
-      integer(ip), intent(in) :: shape, state
+      integer(ip), intent(in) :: shape, state !< place in SHAPES; place in STATES
 
       can_average = shape == 4 .and. .not. (STATES(state)%is_thin .or. IS_REDUCED(state))
    end function can_average
 
    !> Whether the strains of an element have one dilatation, the mean of the element (B-bar).
    pure logical function has_mean_dilatation(section, state, n_nodes)
-      type(elastic_t), intent(in) :: section
-      integer(ip), intent(in) :: state     !< place in STATES
-      integer(ip), intent(in) :: n_nodes   !< of the element
+      type(elastic_t), intent(in) :: section !< its formulation is read
+      integer(ip), intent(in) :: state       !< place in STATES
+      integer(ip), intent(in) :: n_nodes     !< of the element
 
       has_mean_dilatation = section%formulation == FORMULATION_BBAR .and. can_average(n_nodes, state)
    end function has_mean_dilatation

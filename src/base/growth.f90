@@ -32,9 +32,9 @@ module atrito_growth
 contains
 
    pure subroutine grow_numbers(list, length, enough)
-      integer(ip), allocatable, intent(inout) :: list(:)
-      integer(lp), intent(in) :: length          !< >= the present one
-      logical, intent(out), optional :: enough
+      integer(ip), allocatable, intent(inout) :: list(:) !< allocated; stays as it is where `enough` is false
+      integer(lp), intent(in) :: length                  !< >= the present one
+      logical, intent(out), optional :: enough           !< there was memory for it; left out: the program ends where not
       integer(ip), allocatable :: longer(:)
       integer :: no_memory
 
@@ -47,9 +47,9 @@ contains
    end subroutine grow_numbers
 
    pure subroutine grow_long_numbers(list, length, enough)
-      integer(lp), allocatable, intent(inout) :: list(:)
-      integer(lp), intent(in) :: length          !< >= the present one
-      logical, intent(out), optional :: enough
+      integer(lp), allocatable, intent(inout) :: list(:) !< allocated; stays as it is where `enough` is false
+      integer(lp), intent(in) :: length                  !< >= the present one
+      logical, intent(out), optional :: enough           !< there was memory for it; left out: the program ends where not
       integer(lp), allocatable :: longer(:)
       integer :: no_memory
 
@@ -62,9 +62,9 @@ contains
    end subroutine grow_long_numbers
 
    pure subroutine grow_reals(list, length, enough)
-      real(wp), allocatable, intent(inout) :: list(:)
-      integer(lp), intent(in) :: length          !< >= the present one
-      logical, intent(out), optional :: enough
+      real(wp), allocatable, intent(inout) :: list(:) !< allocated; stays as it is where `enough` is false
+      integer(lp), intent(in) :: length               !< >= the present one
+      logical, intent(out), optional :: enough        !< there was memory for it; left out: the program ends where not
       real(wp), allocatable :: longer(:)
       integer :: no_memory
 
@@ -77,8 +77,8 @@ contains
    end subroutine grow_reals
 
    pure subroutine resize_numbers(list, used, length)
-      integer(ip), allocatable, intent(inout) :: list(:)
-      integer(ip), intent(in) :: used, length
+      integer(ip), allocatable, intent(inout) :: list(:) !< not allocated: it is made
+      integer(ip), intent(in) :: used, length            !< entries that are kept, <= length; the new length
       integer(ip), allocatable :: other(:)
 
       allocate (other(length))
@@ -88,7 +88,7 @@ contains
 
    pure subroutine resize_number_columns(list, used, length)
       integer(ip), allocatable, intent(inout) :: list(:, :)    !< allocated: it says how long a column is
-      integer(ip), intent(in) :: used, length
+      integer(ip), intent(in) :: used, length                  !< columns that are kept, <= length; the new number of columns
       integer(ip), allocatable :: other(:, :)
 
       allocate (other(size(list, 1), length))
@@ -97,16 +97,16 @@ contains
    end subroutine resize_number_columns
 
    pure subroutine make_room_for_numbers(list, used, needed)
-      integer(ip), allocatable, intent(inout) :: list(:)
-      integer(ip), intent(in) :: used, needed
+      integer(ip), allocatable, intent(inout) :: list(:) !< not allocated: it is made
+      integer(ip), intent(in) :: used, needed            !< entries that are kept; those that there must be room for
 
       if (.not. allocated(list)) allocate (list(max(needed, FIRST_LENGTH)))
       if (needed > size(list)) call resize(list, used, max(needed, 2*size(list, kind=ip)))
    end subroutine make_room_for_numbers
 
    pure subroutine resize_reals(list, used, length)
-      real(wp), allocatable, intent(inout) :: list(:)
-      integer(ip), intent(in) :: used, length
+      real(wp), allocatable, intent(inout) :: list(:) !< not allocated: it is made
+      integer(ip), intent(in) :: used, length         !< entries that are kept, <= length; the new length
       real(wp), allocatable :: other(:)
 
       allocate (other(length))
@@ -116,7 +116,7 @@ contains
 
    pure subroutine resize_real_columns(list, used, length)
       real(wp), allocatable, intent(inout) :: list(:, :)    !< allocated: it says how long a column is
-      integer(ip), intent(in) :: used, length
+      integer(ip), intent(in) :: used, length               !< columns that are kept, <= length; the new number of columns
       real(wp), allocatable :: other(:, :)
 
       allocate (other(size(list, 1), length))
@@ -125,8 +125,8 @@ contains
    end subroutine resize_real_columns
 
    pure subroutine make_room_for_reals(list, used, needed)
-      real(wp), allocatable, intent(inout) :: list(:)
-      integer(ip), intent(in) :: used, needed
+      real(wp), allocatable, intent(inout) :: list(:) !< not allocated: it is made
+      integer(ip), intent(in) :: used, needed         !< entries that are kept; those that there must be room for
 
       if (.not. allocated(list)) allocate (list(max(needed, FIRST_LENGTH)))
       if (needed > size(list)) call resize(list, used, max(needed, 2*size(list, kind=ip)))

@@ -18,7 +18,7 @@ contains
       integer(ip), intent(in) :: n                   !< members
       integer(ip), intent(in) :: sets(:, :)          !< (most members of a set, sets) 1..n; from the first 0 of a column on: none
       integer(ip), allocatable, intent(out) :: first(:)   !< (n + 1)
-      integer(ip), allocatable, intent(out) :: holder(:)
+      integer(ip), allocatable, intent(out) :: holder(:) !< places of the sets, member after member
       integer(ip), allocatable, intent(out), optional :: row(:)   !< where in the set the member stands
       integer(ip), allocatable :: at(:, :)           !< (n, n_parts): counts, then where the part's next set goes
       integer(ip), allocatable :: place(:)           !< row; of no length where it is not wanted

@@ -18,7 +18,7 @@ contains
    !> The same as ieee_is_nan. A procedure that uses the intrinsic modules of IEEE arithmetic saves and restores the state of the
    !> processor at every call, which costs more than what the small ones do.
    elemental logical function is_nan(x)
-      real(wp), intent(in) :: x
+      real(wp), intent(in) :: x !< any value, NaN among them
 
       is_nan = x /= x
    end function is_nan

@@ -21,7 +21,7 @@ module atrito_messages
    integer, parameter :: LEAST_WIDTH = 40       !< of lines that are broken
 
    type :: message_t
-      integer :: severity = SEVERITY_ERROR
+      integer :: severity = SEVERITY_ERROR      !< one of SEVERITY_...
       character(len=:), allocatable :: id       !< short stable name, e.g. E-NUMBER
       character(len=:), allocatable :: text     !< what is wrong
       character(len=:), allocatable :: file     !< as the user wrote it; not allocated: no place at all
@@ -40,8 +40,8 @@ module atrito_messages
 
    !> How many messages there were at some time.
    type :: message_mark_t
-      integer(ip) :: stored = 0
-      integer(ip) :: counted(SEVERITY_ERROR:SEVERITY_NOTE) = 0
+      integer(ip) :: stored = 0                                !< messages in the store
+      integer(ip) :: counted(SEVERITY_ERROR:SEVERITY_NOTE) = 0 !< of each severity, those that were not kept, too
    end type message_mark_t
 
    type(message_t), allocatable :: store(:)
@@ -54,7 +54,7 @@ contains
    !> and a note or a refusal that says the same of another line with a count. When a thousand of its severity are kept, it is
    !> counted only (a large deck can be wrong in every line).
    subroutine add_message(message)
-      type(message_t), intent(in) :: message
+      type(message_t), intent(in) :: message !< with severity, id and text at least
       integer(ip) :: i
 
       if (.not. has_room(message%severity)) then
@@ -79,7 +79,7 @@ contains
 
    !> Another message of this severity would be kept, not only counted.
    logical function has_room(severity)
-      integer, intent(in) :: severity
+      integer, intent(in) :: severity !< one of SEVERITY_...
 
       has_room = counted(severity) < MOST_KEPT
    end function has_room
@@ -124,21 +124,21 @@ contains
 
    !> A warning without a place.
    subroutine add_warning(id, text)
-      character(len=*), intent(in) :: id, text
+      character(len=*), intent(in) :: id, text !< short stable name; what is wrong
 
       call add_message(message_t(severity=SEVERITY_WARNING, id=id, text=text))
    end subroutine add_warning
 
    !> A note without a place.
    subroutine add_note(id, text)
-      character(len=*), intent(in) :: id, text
+      character(len=*), intent(in) :: id, text !< short stable name; what is told
 
       call add_message(message_t(severity=SEVERITY_NOTE, id=id, text=text))
    end subroutine add_note
 
    !> How many messages of one severity there were; without it, how many are kept and can be fetched.
    integer(ip) function count_messages(severity) result(n)
-      integer, intent(in), optional :: severity
+      integer, intent(in), optional :: severity !< one of SEVERITY_...
 
       n = stored
       if (present(severity)) n = counted(severity)
@@ -146,7 +146,7 @@ contains
 
    !> The i-th message, 1 <= i <= count_messages().
    function get_message(i) result(message)
-      integer(ip), intent(in) :: i
+      integer(ip), intent(in) :: i !< place in the store
       type(message_t) :: message
 
       message = store(i)
@@ -168,7 +168,7 @@ contains
 
    !> Forgets the messages since a mark; the messages must not have been sorted in between.
    subroutine forget_messages(mark)
-      type(message_mark_t), intent(in) :: mark
+      type(message_mark_t), intent(in) :: mark !< of the messages before; it is not later than now
 
       stored = mark%stored
       counted = mark%counted
@@ -196,7 +196,7 @@ contains
 
    !> The lines of a message as they are printed, docs/user/messages.md.
    function format_message(message, width) result(lines)
-      type(message_t), intent(in) :: message
+      type(message_t), intent(in) :: message        !< as it was added
       integer, intent(in), optional :: width        !< columns, where lines are broken
       type(string_t), allocatable :: lines(:)
       character(len=:), allocatable :: text
@@ -244,7 +244,7 @@ contains
 
    !> `FILE:LINE:COLUMN: `, what stands before the word of the severity; empty where there is no place at all.
    pure function place_of_message(message) result(text)
-      type(message_t), intent(in) :: message
+      type(message_t), intent(in) :: message !< as it was added
       character(len=:), allocatable :: text
 
       text = ''

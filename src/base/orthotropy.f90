@@ -96,7 +96,7 @@ contains
 
    !> Stiffness along x1, x2 of a material whose first axis is `axis`: T^-1 C T^-T.
    pure function turned_stiffness(c, axis) result(turned)
-      real(wp), intent(in) :: c(SPATIAL, SPATIAL)
+      real(wp), intent(in) :: c(SPATIAL, SPATIAL)  !< stiffness along the axes of the material [F/L^2]
       real(wp), intent(in) :: axis(2)              !< unit vector
       real(wp) :: turned(SPATIAL, SPATIAL)
       real(wp) :: t(SPATIAL, SPATIAL)
@@ -107,7 +107,7 @@ contains
 
    !> Compliance along x1, x2: T' S T.
    pure function turned_compliance(s, axis) result(turned)
-      real(wp), intent(in) :: s(SPATIAL, SPATIAL)
+      real(wp), intent(in) :: s(SPATIAL, SPATIAL)  !< compliance along the axes of the material [L^2/F]
       real(wp), intent(in) :: axis(2)              !< unit vector
       real(wp) :: turned(SPATIAL, SPATIAL)
       real(wp) :: t(SPATIAL, SPATIAL)
@@ -140,7 +140,7 @@ contains
    !> The matrix of 11, 22, 12 where what belongs to 33 is free to follow: of stiffness where there is no stress s33, of compliance
    !> where there is no strain e33.
    pure function without_component(a) result(b)
-      real(wp), intent(in) :: a(SPATIAL, SPATIAL)
+      real(wp), intent(in) :: a(SPATIAL, SPATIAL) !< stiffness or compliance
       real(wp) :: b(3, 3)
       integer(ip) :: j
 

@@ -19,7 +19,7 @@ module atrito_plane_state
 
    type :: plane_state_t
       character(len=3) :: prefix = ''            !< of the names of its elements
-      character(len=12) :: name = ''
+      character(len=12) :: name = ''             !< in words, for listing and messages
       logical :: is_thin = .false.               !< no stress across the plane; else no strain
       real(wp) :: depth(2) = [1.0_wp, 0.0_wp]    !< over the thickness at x1: depth(1) + depth(2) x1 [-, 1/L]
       logical :: moves(3) = .true.               !< rigid motions: translations along 1 and 2, rotation
@@ -67,15 +67,15 @@ module atrito_plane_state
 
    !> What an element needs to know of its section.
    type :: elastic_t
-      real(wp) :: young = 1.0_wp           !< E [F/L^2]
-      real(wp) :: poisson = 0.0_wp         !< mu
-      real(wp) :: thickness = 1.0_wp       !< [L]
-      real(wp) :: density = 0.0_wp
-      integer(ip) :: formulation = FORMULATION_STANDARD
-      real(wp) :: expansion = 0.0_wp       !< alpha, strain by a rise of the temperature [1/temperature]
-      logical :: is_orthotropic = .false.  !< E and mu have no part in stresses
-      real(wp) :: stiffness(SPATIAL, SPATIAL) = 0.0_wp    !< then, of the components 11, 22, 33, 12 [F/L^2] ...
-      real(wp) :: compliance(SPATIAL, SPATIAL) = 0.0_wp   !< ... and its inverse [L^2/F]
+      real(wp) :: young = 1.0_wp                        !< E [F/L^2]
+      real(wp) :: poisson = 0.0_wp                      !< mu
+      real(wp) :: thickness = 1.0_wp                    !< [L]
+      real(wp) :: density = 0.0_wp                      !< mass of a unit of volume [F T^2/L^4]
+      integer(ip) :: formulation = FORMULATION_STANDARD !< one of FORMULATION_...
+      real(wp) :: expansion = 0.0_wp                    !< alpha, strain by a rise of the temperature [1/temperature]
+      logical :: is_orthotropic = .false.               !< E and mu have no part in stresses
+      real(wp) :: stiffness(SPATIAL, SPATIAL) = 0.0_wp  !< then, of the components 11, 22, 33, 12 [F/L^2] ...
+      real(wp) :: compliance(SPATIAL, SPATIAL) = 0.0_wp !< ... and its inverse [L^2/F]
    end type elastic_t
 
 contains
@@ -91,8 +91,8 @@ contains
 
    !> Stress = matrix * strain for s11, s22, s12 [F/L^2], without what a hoop strain adds.
    pure function elasticity_matrix(section, state) result(d)
-      type(elastic_t), intent(in) :: section
-      integer(ip), intent(in) :: state     !< place in STATES
+      type(elastic_t), intent(in) :: section !< elastic constants
+      integer(ip), intent(in) :: state       !< place in STATES
       real(wp) :: d(COMPONENTS, COMPONENTS)
       real(wp) :: lambda, shear
 
@@ -119,8 +119,8 @@ contains
    !> The inverse of the elasticity matrix [L^2/F]; it stays finite at Poisson's ratio 1/2. Where s33 is a stress of its own it is
    !> what s11, s22, s12 alone strain, as in plane stress.
    pure function compliance_matrix(section, state) result(c)
-      type(elastic_t), intent(in) :: section
-      integer(ip), intent(in) :: state     !< place in STATES
+      type(elastic_t), intent(in) :: section !< elastic constants
+      integer(ip), intent(in) :: state       !< place in STATES
       real(wp) :: c(COMPONENTS, COMPONENTS)
 
       if (section%is_orthotropic) then
@@ -145,9 +145,9 @@ contains
 
    !> The stress across the plane that follows from those in it; where there is a hoop strain it does not.
    pure real(wp) function stress_33(section, state, s)
-      type(elastic_t), intent(in) :: section
-      integer(ip), intent(in) :: state
-      real(wp), intent(in) :: s(COMPONENTS)
+      type(elastic_t), intent(in) :: section !< elastic constants
+      integer(ip), intent(in) :: state       !< place in STATES
+      real(wp), intent(in) :: s(COMPONENTS)  !< s11, s22, s12 [F/L^2]
 
       stress_33 = section%poisson*(s(1) + s(2))
       if (section%is_orthotropic) then
@@ -159,8 +159,8 @@ contains
    !> What a unit of thermal strain that cannot happen takes from s11, s22, s12 and s33 [F/L^2]: the sums of the rows of the
    !> elasticity for the normal strains, of isotropic elasticity E/(1 - 2 mu), or E/(1 - mu) where no stress goes across the plane.
    pure function thermal_stresses(section, state) result(b)
-      type(elastic_t), intent(in) :: section
-      integer(ip), intent(in) :: state     !< place in STATES
+      type(elastic_t), intent(in) :: section !< elastic constants
+      integer(ip), intent(in) :: state       !< place in STATES
       real(wp) :: b(COMPONENTS + 1)
       real(wp) :: d(COMPONENTS, COMPONENTS)
 
@@ -177,7 +177,7 @@ contains
 
    !> What a unit of thermal strain takes from the stress across a plane without strain, beside what it takes by s11, s22 and s12.
    pure real(wp) function thermal_modulus_33(section)
-      type(elastic_t), intent(in) :: section
+      type(elastic_t), intent(in) :: section !< elastic constants
 
       thermal_modulus_33 = section%young
       if (section%is_orthotropic) thermal_modulus_33 = 1/section%compliance(ACROSS, ACROSS)

@@ -11,7 +11,7 @@ contains
 
    !> sum(force*displacement); infinite, without raising an exception, where that is too large for a number.
    pure real(wp) function work_of(n, force, displacement) result(work)
-      integer(ip), intent(in) :: n
+      integer(ip), intent(in) :: n                 !< dofs, >= 0
       real(wp), intent(in) :: force(n)             !< [F]
       real(wp), intent(in) :: displacement(n)      !< [L]
       real(wp) :: scale, total
@@ -33,7 +33,7 @@ contains
    !> A power of two next to the largest of the values: what they are over it is not above 1, without rounding. 1 of nothing and of
    !> zeros.
    real(wp) function unit_of(values) result(unit)
-      real(wp), intent(in) :: values(:, :)
+      real(wp), intent(in) :: values(:, :)                 !< of any shape, their sizes alone count
       integer, parameter :: MOST = maxexponent(1.0_wp) - 2 !< 1/unit is a number as well
       real(wp) :: largest(chunk_count(size(values, 2, kind=ip)))
       integer(ip) :: chunk, first, last

@@ -12,7 +12,7 @@ module atrito_reporter
    integer, parameter :: PROGRESS_ALL = 0, PROGRESS_PHASES = 1, PROGRESS_LINE = 2
 
    type :: reporter_t
-      logical :: quiet = .false.
+      logical :: quiet = .false.                    !< nothing is written
       integer :: form = PROGRESS_ALL                !< one of PROGRESS_...
    end type reporter_t
 
@@ -20,31 +20,31 @@ contains
 
    !> From now on progress is one line of the terminal, where the system has a thread for it.
    subroutine begin_line(reporter)
-      type(reporter_t), intent(inout) :: reporter
+      type(reporter_t), intent(inout) :: reporter !< `form` is set
 
       reporter%form = merge(PROGRESS_LINE, PROGRESS_PHASES, c_begin_line() == 1)
    end subroutine begin_line
 
    !> What is being done: an iteration, a body.
    subroutine report_progress(reporter, text)
-      type(reporter_t), intent(in) :: reporter
-      character(len=*), intent(in) :: text
+      type(reporter_t), intent(in) :: reporter !< quiet, or how much is written
+      character(len=*), intent(in) :: text     !< one line, without indentation
 
       call report(reporter, text, is_place=.false., is_line=reporter%form == PROGRESS_ALL)
    end subroutine report_progress
 
    !> A phase begins: reading, writing, a run of many.
    subroutine report_phase(reporter, text)
-      type(reporter_t), intent(in) :: reporter
-      character(len=*), intent(in) :: text
+      type(reporter_t), intent(in) :: reporter !< quiet, or how much is written
+      character(len=*), intent(in) :: text     !< one line, without indentation
 
       call report(reporter, text, is_place=.true., is_line=.true.)
    end subroutine report_phase
 
    !> Where the run is; with a line for each iteration it has none of its own.
    subroutine report_place(reporter, text, is_phase)
-      type(reporter_t), intent(in) :: reporter
-      character(len=*), intent(in) :: text
+      type(reporter_t), intent(in) :: reporter      !< quiet, or how much is written
+      character(len=*), intent(in) :: text          !< one line, without indentation
       logical, intent(in) :: is_phase               !< new enough for a line of its own
 
       call report(reporter, text, is_place=.true., is_line=is_phase .and. reporter%form == PROGRESS_PHASES)

@@ -13,7 +13,7 @@ contains
    !> the lower of their first keys again and again, of equal ones that of the left run. That is n comparisons a doubling, n log2 n
    !> in all, whatever the keys. Keys that are sorted already, as those of a deck often are, are seen at once.
    pure function sorted_places(key) result(places)
-      integer(lp), intent(in) :: key(:)
+      integer(lp), intent(in) :: key(:) !< (n) in any order
       integer(ip) :: places(size(key))
       integer(ip), allocatable :: merged(:)
       integer(ip) :: i, n, length, middle, last
@@ -60,7 +60,7 @@ contains
 
    !> Numbers in rising order, each once.
    pure function each_once(numbers) result(once)
-      integer(ip), intent(in) :: numbers(:)
+      integer(ip), intent(in) :: numbers(:) !< in any order
       integer(ip), allocatable :: once(:)
       logical :: is_new(size(numbers))
 
@@ -73,7 +73,7 @@ contains
    !> Place of the first key that is not below a bound; one more than there are when all are.
    pure integer(ip) function first_at_least(key, bound) result(low)
       integer(lp), intent(in) :: key(:)              !< rising
-      integer(lp), intent(in) :: bound
+      integer(lp), intent(in) :: bound               !< what the key is not to be below
       integer(ip) :: high, middle
 
       low = 1
@@ -92,7 +92,7 @@ contains
    !> are whole numbers in their order (IEEE 754). Negative ones have the first bit set, which makes a negative whole number, and
    !> the same bits behind it in falling order: these are turned over. (-0 comes just before 0.)
    pure elemental integer(lp) function order_key(x) result(key)
-      real(wp), intent(in) :: x
+      real(wp), intent(in) :: x !< finite or infinite
 
       key = transfer(x, key)
       if (key < 0_lp) key = ieor(key, huge(key))

@@ -17,7 +17,7 @@ module atrito_status
    integer, parameter :: STATUS_INTERNAL = 9       !< a broken invariant
 
    type :: status_t
-      integer :: code = STATUS_OK
+      integer :: code = STATUS_OK                  !< one of STATUS_*
       character(len=:), allocatable :: text        !< one line or more for the user; allocated unless OK
    end type status_t
 
@@ -25,9 +25,9 @@ contains
 
    !> Says what went wrong.
    pure subroutine set_status(status, code, text)
-      type(status_t), intent(out) :: status
+      type(status_t), intent(out) :: status        !< what it said before is lost
       integer, intent(in) :: code                  !< one of STATUS_*
-      character(len=*), intent(in) :: text
+      character(len=*), intent(in) :: text         !< one line or more for the user
 
       status%code = code
       status%text = text
@@ -35,15 +35,15 @@ contains
 
    !> Says the same in other words.
    pure subroutine reword_status(status, text)
-      type(status_t), intent(inout) :: status
-      character(len=*), intent(in) :: text
+      type(status_t), intent(inout) :: status !< one that has failed; its code stays
+      character(len=*), intent(in) :: text    !< one line or more for the user
 
       status%text = text
    end subroutine reword_status
 
    !> Whether nothing has failed: the code is STATUS_OK.
    pure logical function is_ok(status)
-      type(status_t), intent(in) :: status
+      type(status_t), intent(in) :: status !< as the call left it
 
       is_ok = status%code == STATUS_OK
    end function is_ok

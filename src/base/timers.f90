@@ -6,10 +6,10 @@ module atrito_timers
    public :: phase_time_t, start_phase, stop_phase, get_phases, reset_timers
 
    type :: phase_time_t
-      character(len=16) :: name = ''
+      character(len=16) :: name = '' !< e.g. 'factor'
       real(wp) :: wall = 0.0_wp      !< seconds
       real(wp) :: cpu = 0.0_wp       !< seconds, all threads
-      logical :: running = .false.
+      logical :: running = .false.   !< its clock goes
    end type phase_time_t
 
    integer, parameter :: MOST_PHASES = 32
@@ -21,7 +21,7 @@ contains
 
    !> Starts, or goes on with, the clock of a phase.
    subroutine start_phase(name)
-      character(len=*), intent(in) :: name
+      character(len=*), intent(in) :: name !< up to 16 letters, without blanks at the end
       integer :: i
 
       i = find_phase(name)
@@ -32,7 +32,7 @@ contains
 
    !> Stops the clock of a phase.
    subroutine stop_phase(name)
-      character(len=*), intent(in) :: name
+      character(len=*), intent(in) :: name !< of start_phase; others are passed over
       real(wp) :: wall, cpu
       integer :: i
 

@@ -20,9 +20,9 @@ contains
    !> a + b. outcome: ARITHMETIC_OK, or ARITHMETIC_OVERFLOW where the sum is beyond all numbers, and then the sum is 0. No exception
    !> is raised.
    pure subroutine add_safely(a, b, sum, outcome)
-      real(wp), intent(in) :: a, b
-      real(wp), intent(out) :: sum
-      integer, intent(out) :: outcome
+      real(wp), intent(in) :: a, b    !< any numbers
+      real(wp), intent(out) :: sum    !< 0 where the outcome is not OK
+      integer, intent(out) :: outcome !< one of ARITHMETIC_*
 
       sum = 0.0_wp
       outcome = ARITHMETIC_OVERFLOW
@@ -33,9 +33,9 @@ contains
 
    !> a b. outcome: ARITHMETIC_OK, or ARITHMETIC_OVERFLOW, and then the product is 0. No exception is raised.
    pure subroutine multiply_safely(a, b, product, outcome)
-      real(wp), intent(in) :: a, b
-      real(wp), intent(out) :: product
-      integer, intent(out) :: outcome
+      real(wp), intent(in) :: a, b     !< any numbers
+      real(wp), intent(out) :: product !< 0 where the outcome is not OK
+      integer, intent(out) :: outcome  !< one of ARITHMETIC_*
 
       product = 0.0_wp
       outcome = ARITHMETIC_OVERFLOW
@@ -46,9 +46,9 @@ contains
 
    !> a/b. outcome: ARITHMETIC_OK, ARITHMETIC_ZERO_DIVISION or ARITHMETIC_OVERFLOW, and then the quotient is 0.
    pure subroutine divide_safely(a, b, quotient, outcome)
-      real(wp), intent(in) :: a, b
-      real(wp), intent(out) :: quotient
-      integer, intent(out) :: outcome
+      real(wp), intent(in) :: a, b      !< any numbers
+      real(wp), intent(out) :: quotient !< 0 where the outcome is not OK
+      integer, intent(out) :: outcome   !< one of ARITHMETIC_*
 
       quotient = 0.0_wp
       outcome = ARITHMETIC_ZERO_DIVISION
@@ -67,11 +67,12 @@ contains
       fits = x == 0.0_wp .or. power_of_two + exponent(x) <= LARGEST_EXPONENT
    end function fits
 
-   !> a**b; of a negative number only a whole power exists.
+   !> a**b; of a negative number only a whole power exists. outcome: ARITHMETIC_OK, or why there is no power, which is 0 then:
+   !> ARITHMETIC_ZERO_DIVISION of 0 to a negative power, ARITHMETIC_UNDEFINED or ARITHMETIC_OVERFLOW.
    pure subroutine raise_safely(a, b, power, outcome)
-      real(wp), intent(in) :: a, b
-      real(wp), intent(out) :: power
-      integer, intent(out) :: outcome
+      real(wp), intent(in) :: a, b    !< any numbers
+      real(wp), intent(out) :: power  !< 0 where the outcome is not OK
+      integer, intent(out) :: outcome !< one of ARITHMETIC_*
       real(wp) :: argument
 
       power = 0.0_wp
@@ -91,9 +92,9 @@ contains
 
    !> exp(a). outcome: ARITHMETIC_OK, or ARITHMETIC_OVERFLOW, and then the power is 0.
    pure subroutine exponential_safely(a, power, outcome)
-      real(wp), intent(in) :: a
-      real(wp), intent(out) :: power
-      integer, intent(out) :: outcome
+      real(wp), intent(in) :: a       !< any number
+      real(wp), intent(out) :: power  !< 0 where the outcome is not OK
+      integer, intent(out) :: outcome !< one of ARITHMETIC_*
 
       power = 0.0_wp
       outcome = ARITHMETIC_OVERFLOW

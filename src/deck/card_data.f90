@@ -18,7 +18,7 @@ module atrito_card_data
       integer, allocatable :: forms(:)                 !< indices in the forms of the keyword
       integer, allocatable :: n_lines(:)               !< lines of each
       integer :: n_words = 0                           !< forms that begin with a word
-      logical :: faulty = .false.
+      logical :: faulty = .false.                      !< an error has been told: no word about missing lines
       logical :: noted = .false.                       !< a note is given once a card
    end type tally_t
 
@@ -28,7 +28,7 @@ contains
 
    !> Checks the data lines of a card; lines(:)%ok tells the outcome.
    subroutine check_data(deck, card)
-      type(deck_t), intent(inout) :: deck
+      type(deck_t), intent(inout) :: deck              !< its lines and tokens; lines that go on are joined
       type(card_t), intent(inout) :: card              !< its lines become fewer where some go on
       type(tally_t) :: tally
       integer(ip) :: i
@@ -152,9 +152,9 @@ contains
 
    !> Whether lines of this form may stand in a card, by its options.
    pure logical function form_applies(deck, card, form) result(applies)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
-      type(form_t), intent(in) :: form
+      type(deck_t), intent(in) :: deck !< its keyword table is read
+      type(card_t), intent(in) :: card !< its options are asked
+      type(form_t), intent(in) :: form !< one of the card's keyword
       integer :: i
 
       if (len(form%option) == 0) then

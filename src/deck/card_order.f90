@@ -18,13 +18,13 @@ module atrito_card_order
 
    !> What has been read so far.
    type :: order_t
-      logical :: in_step = .false.
-      integer(ip) :: n_steps = 0
+      logical :: in_step = .false.                 !< between *STEP and *END STEP
+      integer(ip) :: n_steps = 0                   !< steps begun so far
       type(token_t) :: step                        !< the *STEP begun last
       character(len=32) :: parent = ''             !< keyword to whose block the next ones belong
-      logical :: parent_ok = .true.
+      logical :: parent_ok = .true.                !< false where the parent was refused or is not known
       logical :: lost_step = .false.               !< a *STEP is misspelt: what stands outside of all steps may be in it
-      type(parts_t) :: parts
+      type(parts_t) :: parts                       !< parts, instances and assembly
       logical :: incomplete = .false.              !< a file could not be read: no word about what is missing
    end type order_t
 
@@ -32,9 +32,9 @@ contains
 
    !> Checks the place of a card and marks its level.
    subroutine check_order(deck, order, card)
-      type(deck_t), intent(in) :: deck
-      type(order_t), intent(inout) :: order
-      type(card_t), intent(inout) :: card
+      type(deck_t), intent(in) :: deck      !< its texts and keyword table are read
+      type(order_t), intent(inout) :: order !< what stands before the card; then with it
+      type(card_t), intent(inout) :: card   !< gets its level, step and block; may be refused
 
       card%level = merge(LEVEL_STEP, LEVEL_MODEL, order%in_step)
       card%step = merge(order%n_steps, 0_ip, order%in_step)
@@ -154,8 +154,8 @@ contains
 
    !> Checks at the end of the deck that there was a step and that it ended.
    subroutine check_end(deck, order)
-      type(deck_t), intent(in) :: deck
-      type(order_t), intent(in) :: order
+      type(deck_t), intent(in) :: deck   !< its texts, for messages; all is read
+      type(order_t), intent(in) :: order !< at the end of the deck
 
       if (order%incomplete) return
       call check_open_parts(deck, order%parts)

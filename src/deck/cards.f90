@@ -28,9 +28,9 @@ contains
 
    !> The card of a keyword line; its keyword is looked up, its options only split.
    subroutine make_card(deck, items, card)
-      type(deck_t), intent(in) :: deck
+      type(deck_t), intent(in) :: deck                 !< its texts and keyword table are read
       type(token_t), intent(in) :: items(:)            !< of the line and those that continue it; the first one is *KEYWORD
-      type(card_t), intent(out) :: card
+      type(card_t), intent(out) :: card                !< no level and no lines yet
       integer :: i
 
       card%place = part_of(deck, items(1), items(1)%first + 1, items(1)%last)
@@ -117,7 +117,7 @@ contains
    !> Whether a line behind a comma at the end of a keyword line goes on with options: what is none is data, and the comma means
    !> nothing. A title of *STEP could be a misspelt option, and is taken for one.
    pure logical function has_options(deck, keyword, text)
-      type(deck_t), intent(in) :: deck
+      type(deck_t), intent(in) :: deck                 !< its keyword table is read
       character(len=*), intent(in) :: keyword          !< with its asterisk
       character(len=*), intent(in) :: text             !< the line without blanks at its ends
       character(len=:), allocatable :: why
@@ -140,8 +140,8 @@ contains
 
    !> Checks the options of a card whose keyword is known; card%ok tells the outcome.
    subroutine check_options(deck, card)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(inout) :: card
+      type(deck_t), intent(in) :: deck    !< its texts and keyword table are read
+      type(card_t), intent(inout) :: card !< its options get their `spec`
       integer :: i, spec
       character(len=:), allocatable :: name
 

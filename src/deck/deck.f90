@@ -26,7 +26,7 @@ module atrito_deck
 
    type :: source_t
       character(len=:), allocatable :: name        !< FILE as the user wrote it
-      character(len=:), allocatable :: text
+      character(len=:), allocatable :: text        !< the whole file; not allocated once it is given away
       integer(ip) :: parent = 0                    !< source that includes this one; 0: the deck itself
       integer(ip) :: include_line = 0              !< line of it that does
       integer(ip) :: include_first = 1, include_last = 0 !< characters of that one's text that its *INCLUDE takes, whole lines
@@ -34,7 +34,7 @@ module atrito_deck
       integer(ip) :: n_lines = 0                   !< with those of the files that it includes
       integer(ip) :: order = 0                     !< lines read before its first
       integer(lp) :: identity(2) = -1_lp           !< of the file, whatever its name
-      integer(ip) :: n_children = 0
+      integer(ip) :: n_children = 0                !< sources that it includes
       integer(ip), allocatable :: children(:)      !< sources that it includes, in their order; the first n_children are in use
    end type source_t
 
@@ -48,8 +48,8 @@ module atrito_deck
 
    !> NAME or NAME=VALUE behind a keyword.
    type :: option_t
-      type(token_t) :: name
-      type(token_t) :: value
+      type(token_t) :: name                        !< before the equals sign
+      type(token_t) :: value                       !< behind it; empty where has_value is false
       logical :: has_value = .false.               !< there is an equals sign
       integer :: spec = 0                          !< in the options of the keyword's definition; 0: unknown; -1: foreign
    end type option_t
@@ -58,9 +58,9 @@ module atrito_deck
       integer :: keyword = KEYWORD_UNKNOWN         !< index in deck%keywords
       character(len=32) :: name = ''               !< as in the table, e.g. 'CONTACT PAIR'; blank: KEYWORD_UNKNOWN
       type(token_t) :: place                       !< the keyword itself
-      type(option_t), allocatable :: options(:)
+      type(option_t), allocatable :: options(:)    !< in the order of the keyword line
       integer(ip) :: first_line = 1                !< deck%lines(first_line : first_line + n_lines - 1)
-      integer(ip) :: n_lines = 0
+      integer(ip) :: n_lines = 0                   !< data lines; 0: none
       integer :: level = LEVEL_MODEL               !< where it stands: LEVEL_MODEL or LEVEL_STEP
       integer(ip) :: step = 0                      !< in which it stands; 0: none
       integer(ip) :: block = 0                     !< the *PART or *INSTANCE in which it stands, counted; 0: none
@@ -76,7 +76,7 @@ module atrito_deck
 
    type :: data_line_t
       integer(ip) :: first_token = 1               !< deck%tokens(first_token : first_token + n_tokens - 1)
-      integer(ip) :: n_tokens = 0
+      integer(ip) :: n_tokens = 0                  !< items, empty ones among them
       logical :: ok = .true.                       !< the number of items is right and the words are known
    end type data_line_t
 
@@ -91,8 +91,8 @@ module atrito_deck
    end type scope_t
 
    type :: parameter_t
-      character(len=:), allocatable :: name
-      real(wp) :: value = 0.0_wp
+      character(len=:), allocatable :: name        !< as in the deck, without case
+      real(wp) :: value = 0.0_wp                   !< 0 where it is not known
       type(token_t) :: place                       !< where it is defined
       type(token_t) :: expression                  !< what stands behind the equals sign
       integer(ip) :: order = 0                     !< in reading order
@@ -102,23 +102,23 @@ module atrito_deck
 
    !> The arrays have spare room: n_lines, n_tokens ... count. cards and parameters are cut to size when the deck is read.
    type :: deck_t
-      character(len=:), allocatable :: path        !< of the main file, as the user wrote it
-      type(source_t), allocatable :: sources(:)
-      type(card_t), allocatable :: cards(:)
-      type(data_line_t), allocatable :: lines(:)
-      type(token_t), allocatable :: tokens(:)
-      type(parameter_t), allocatable :: parameters(:)
-      type(name_list_t) :: parameter_names         !< in their order
-      type(keyword_t), allocatable :: keywords(:)  !< the keyword table: heads, and the definitions of those that the deck has
-      type(string_t), allocatable :: definitions(:) !< its lines
-      type(subject_t), allocatable :: subjects(:)  !< what lies outside, by other programs' names
-      logical :: has_lost_parameters = .false.     !< definitions that could not be read: an unknown one may be among them
-      logical :: is_outside = .false.              !< a scene that atrito does not solve: what only follows is not reported
-      integer :: subject = 0                       !< of the elements that it does not solve
-      type(gmsh_mesh_t), allocatable :: meshes(:)  !< of *INCLUDE, TYPE=GMSH, in their order
-      type(edits_t) :: edits                       !< what is replaced when the deck is written as it was run
-      type(scope_t), allocatable :: scopes(:)      !< (0:instances); not allocated: a deck without parts
-      integer(ip) :: n_sources = 0, n_cards = 0, n_lines = 0, n_tokens = 0, n_parameters = 0
+      character(len=:), allocatable :: path           !< of the main file, as the user wrote it
+      type(source_t), allocatable :: sources(:)       !< files, the deck itself first
+      type(card_t), allocatable :: cards(:)           !< in reading order, later in that of the instances
+      type(data_line_t), allocatable :: lines(:)      !< data lines of all cards
+      type(token_t), allocatable :: tokens(:)         !< items of all lines
+      type(parameter_t), allocatable :: parameters(:) !< in the order of their definitions
+      type(name_list_t) :: parameter_names            !< in their order
+      type(keyword_t), allocatable :: keywords(:)     !< the keyword table: heads, and the definitions of those that the deck has
+      type(string_t), allocatable :: definitions(:)   !< its lines
+      type(subject_t), allocatable :: subjects(:)     !< what lies outside, by other programs' names
+      logical :: has_lost_parameters = .false.        !< definitions that could not be read: an unknown one may be among them
+      logical :: is_outside = .false.                 !< a scene that atrito does not solve: what only follows is not reported
+      integer :: subject = 0                          !< of the elements that it does not solve
+      type(gmsh_mesh_t), allocatable :: meshes(:)     !< of *INCLUDE, TYPE=GMSH, in their order
+      type(edits_t) :: edits                          !< what is replaced when the deck is written as it was run
+      type(scope_t), allocatable :: scopes(:)         !< (0:instances); not allocated: a deck without parts
+      integer(ip) :: n_sources = 0, n_cards = 0, n_lines = 0, n_tokens = 0, n_parameters = 0 !< in use
    end type deck_t
 
    character(len=1), parameter :: LINE_FEED = achar(10), CARRIAGE_RETURN = achar(13)
@@ -127,8 +127,8 @@ contains
 
    !> The characters of an item, without its quotes; a name of an instance is `instance.name`.
    pure function token_text(deck, token) result(text)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: token
+      type(deck_t), intent(in) :: deck   !< texts and instances are read
+      type(token_t), intent(in) :: token !< of the item; may be empty
       character(len=:), allocatable :: text
 
       if (is_empty_token(token)) then
@@ -144,8 +144,8 @@ contains
 
    !> What makes the number that an item is one of the model.
    pure integer(ip) function scope_shift(deck, token) result(shift)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: token
+      type(deck_t), intent(in) :: deck   !< instances are read
+      type(token_t), intent(in) :: token !< of a number
 
       shift = 0
       if (allocated(deck%scopes)) shift = deck%scopes(token%scope)%shift
@@ -153,8 +153,8 @@ contains
 
    !> The number in the model; 0 where it is greater than any of its scope.
    pure integer(ip) function model_number(deck, token, number)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: token
+      type(deck_t), intent(in) :: deck                 !< instances are read
+      type(token_t), intent(in) :: token               !< of the number
       integer(ip), intent(in) :: number                !< as written
 
       model_number = number
@@ -166,8 +166,8 @@ contains
 
    !> ` of <instance>`; '' where there is none.
    pure function scope_text(deck, token) result(text)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: token
+      type(deck_t), intent(in) :: deck   !< instances are read
+      type(token_t), intent(in) :: token !< of a number or a name
       character(len=:), allocatable :: text
 
       text = ''
@@ -176,9 +176,9 @@ contains
 
    !> The item at some characters of another one, without the blanks round them.
    pure function part_of(deck, token, first, last) result(part)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: token
-      integer(ip), intent(in) :: first, last
+      type(deck_t), intent(in) :: deck       !< texts are read
+      type(token_t), intent(in) :: token     !< the item that the part is in
+      integer(ip), intent(in) :: first, last !< characters of the source
       type(token_t) :: part
 
       part = token
@@ -190,8 +190,8 @@ contains
 
    !> How many characters of a name stand in the deck, its quotes apart.
    pure integer(ip) function written_length(deck, token) result(n)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: token
+      type(deck_t), intent(in) :: deck   !< texts are read
+      type(token_t), intent(in) :: token !< of a name
 
       n = token%last - token%first + 1
       if (is_quoted(deck, token)) n = n - 2
@@ -199,15 +199,15 @@ contains
 
    !> Whether nothing stands there: an item between two commas, for example.
    elemental logical function is_empty_token(token)
-      type(token_t), intent(in) :: token
+      type(token_t), intent(in) :: token !< of an item
 
       is_empty_token = token%last < token%first
    end function is_empty_token
 
    !> The item stands in "quotes".
    pure logical function is_quoted(deck, token)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: token
+      type(deck_t), intent(in) :: deck   !< texts are read
+      type(token_t), intent(in) :: token !< of an item
 
       is_quoted = .false.
       if (token%last <= token%first) return
@@ -219,8 +219,8 @@ contains
 
    !> The item is the number of a node or element, not the name of a set: all digits, or a parameter.
    pure logical function is_id_token(deck, token)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: token
+      type(deck_t), intent(in) :: deck   !< texts are read
+      type(token_t), intent(in) :: token !< of an item
 
       is_id_token = .false.
       if (is_empty_token(token)) return
@@ -232,7 +232,7 @@ contains
 
    !> Name of a card's keyword as in the table, for `select case`; '' when the card is to be passed over.
    pure function keyword_name(card) result(name)
-      type(card_t), intent(in) :: card
+      type(card_t), intent(in) :: card !< its name is read
       character(len=:), allocatable :: name
 
       name = trim(card%name)
@@ -240,9 +240,9 @@ contains
 
    !> The i-th item of a data line; beyond the last one an empty item with its place.
    pure function line_item(deck, line, i) result(token)
-      type(deck_t), intent(in) :: deck
-      type(data_line_t), intent(in) :: line
-      integer(ip), intent(in) :: i
+      type(deck_t), intent(in) :: deck      !< items are read
+      type(data_line_t), intent(in) :: line !< that has one item at least
+      integer(ip), intent(in) :: i          !< 1, 2, ...
       type(token_t) :: token
 
       if (i <= line%n_tokens) then
@@ -257,8 +257,8 @@ contains
 
    !> How many data lines all cards of a keyword have.
    pure integer(ip) function count_lines(deck, keyword) result(n)
-      type(deck_t), intent(in) :: deck
-      character(len=*), intent(in) :: keyword
+      type(deck_t), intent(in) :: deck        !< cards are read
+      character(len=*), intent(in) :: keyword !< as in the table
       integer(ip) :: i
 
       n = 0
@@ -269,8 +269,8 @@ contains
 
    !> The last item of a data line that has some.
    pure function last_item(deck, line) result(token)
-      type(deck_t), intent(in) :: deck
-      type(data_line_t), intent(in) :: line
+      type(deck_t), intent(in) :: deck      !< items are read
+      type(data_line_t), intent(in) :: line !< that has one item at least
       type(token_t) :: token
 
       token = deck%tokens(line%first_token + line%n_tokens - 1)
@@ -278,8 +278,8 @@ contains
 
    !> The line's number in reading order, included files in their place.
    pure integer(ip) function reading_order(deck, source, line) result(order)
-      type(deck_t), intent(in) :: deck
-      integer(ip), intent(in) :: source, line
+      type(deck_t), intent(in) :: deck        !< sources and what they include
+      integer(ip), intent(in) :: source, line !< place in sources; line of it
       integer(ip) :: before, behind, middle
 
       order = deck%sources(source)%order + line
@@ -304,8 +304,8 @@ contains
 
    !> Makes a source one that another one includes, behind those that it includes already.
    pure subroutine note_include(deck, source, parent, line)
-      type(deck_t), intent(inout) :: deck
-      integer(ip), intent(in) :: source, parent
+      type(deck_t), intent(inout) :: deck          !< the source gets its place in reading order
+      integer(ip), intent(in) :: source, parent    !< places in sources
       integer(ip), intent(in) :: line              !< of the parent, in which it is included
 
       deck%sources(source)%order = reading_order(deck, parent, line)
@@ -321,11 +321,11 @@ contains
    !> The line of the deck in which an item stands; of a long line the part that reaches so many characters to both sides of the
    !> item's beginning (a line may have as many characters as the deck, and a thousand messages keep theirs).
    pure subroutine take_source_line(deck, token, reach, line, skipped)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: token
-      integer(ip), intent(in) :: reach
-      character(len=:), allocatable, intent(out) :: line
-      integer(ip), intent(out) :: skipped          !< characters of the line before this part of it
+      type(deck_t), intent(in) :: deck                   !< texts are read
+      type(token_t), intent(in) :: token                 !< of the item
+      integer(ip), intent(in) :: reach                   !< characters on each side, >= 0
+      character(len=:), allocatable, intent(out) :: line !< without its end
+      integer(ip), intent(out) :: skipped                !< characters of the line before this part of it
       integer(ip) :: first, last, length
 
       skipped = max(0, token%column - 1 - reach)
@@ -345,7 +345,7 @@ contains
 
    !> The first character of a text behind the mark that some editors put before it.
    pure integer(ip) function after_byte_order_mark(text) result(position)
-      character(len=*), intent(in) :: text
+      character(len=*), intent(in) :: text !< of a file, may be empty
       character(len=3), parameter :: MARK = char(239)//char(187)//char(191)
 
       position = 1
@@ -354,7 +354,7 @@ contains
 
    !> An empty deck, with room to grow: a list that is full doubles, and what its second half holds is written over.
    subroutine allocate_deck(deck)
-      type(deck_t), intent(inout) :: deck
+      type(deck_t), intent(inout) :: deck !< nothing allocated in it
 
       allocate (deck%sources(4), deck%cards(64), deck%lines(256), deck%tokens(1024), deck%parameters(16), deck%meshes(0))
       call take_subjects(deck%subjects)
@@ -362,8 +362,8 @@ contains
 
    !> Room for more items and lines, made once: a list that doubles is there three times while it does.
    subroutine make_room(deck, items, lines)
-      type(deck_t), intent(inout) :: deck
-      integer(ip), intent(in) :: items, lines
+      type(deck_t), intent(inout) :: deck     !< lists become longer, what is in them stays
+      integer(ip), intent(in) :: items, lines !< that are going to be added
       type(token_t), allocatable :: tokens(:)
       type(data_line_t), allocatable :: longer(:)
 
@@ -380,8 +380,8 @@ contains
 
    !> Adds a text as a source of the deck: a file, or what stands in the place of one. Places in the deck name it by its number.
    subroutine append_source(deck, name, text, identity)
-      type(deck_t), intent(inout) :: deck
-      character(len=*), intent(in) :: name
+      type(deck_t), intent(inout) :: deck                    !< the source is its last one
+      character(len=*), intent(in) :: name                   !< of the file, as the user wrote it
       character(len=:), allocatable, intent(inout) :: text   !< moved into the deck
       integer(lp), intent(in), optional :: identity(2)       !< of the file
       type(source_t), allocatable :: longer(:)
@@ -420,8 +420,8 @@ contains
 
    !> Adds a token behind those of the deck. Those of a card or a line stand one behind the other.
    subroutine append_token(deck, token)
-      type(deck_t), intent(inout) :: deck
-      type(token_t), intent(in) :: token
+      type(deck_t), intent(inout) :: deck !< gets one item more
+      type(token_t), intent(in) :: token  !< of the last line or card
 
       if (deck%n_tokens == size(deck%tokens)) call make_room(deck, deck%n_tokens/2 + 1_ip, 0_ip)
       deck%n_tokens = deck%n_tokens + 1
@@ -430,7 +430,7 @@ contains
 
    !> Appends a data line of no items yet; append_token adds them.
    subroutine append_line(deck)
-      type(deck_t), intent(inout) :: deck
+      type(deck_t), intent(inout) :: deck !< gets one line more
 
       if (deck%n_lines == size(deck%lines)) call make_room(deck, 0_ip, deck%n_lines/2 + 1_ip)
       deck%n_lines = deck%n_lines + 1
@@ -439,8 +439,8 @@ contains
 
    !> Adds a keyword line with its options; its data lines follow.
    subroutine append_card(deck, card)
-      type(deck_t), intent(inout) :: deck
-      type(card_t), intent(in) :: card
+      type(deck_t), intent(inout) :: deck !< gets one card more
+      type(card_t), intent(in) :: card    !< with its options; lines are not there yet
 
       if (deck%n_cards == size(deck%cards)) deck%cards = [deck%cards, deck%cards]
       deck%n_cards = deck%n_cards + 1
@@ -449,7 +449,7 @@ contains
 
    !> The last card names this mesh.
    subroutine append_mesh(deck, mesh)
-      type(deck_t), intent(inout) :: deck
+      type(deck_t), intent(inout) :: deck              !< gets one mesh more, of its last card
       type(gmsh_mesh_t), intent(inout) :: mesh         !< moved into the deck
       type(gmsh_mesh_t), allocatable :: longer(:)
       integer :: i, n

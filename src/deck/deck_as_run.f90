@@ -18,9 +18,9 @@ contains
    !> The deck first, then the meshes of other programs that it includes. The texts of the deck are moved; it is of no use
    !> afterwards.
    subroutine take_deck_as_run(deck, files, before_steps)
-      type(deck_t), intent(inout) :: deck
-      type(named_text_t), allocatable, intent(out) :: files(:)
-      character(len=*), intent(in), optional :: before_steps !< cards that are put before the first *STEP
+      type(deck_t), intent(inout) :: deck                      !< edits noted; loses its texts
+      type(named_text_t), allocatable, intent(out) :: files(:) !< deck, then copies of meshes, with their names
+      character(len=*), intent(in), optional :: before_steps   !< cards that are put before the first *STEP
       integer(ip) :: i, n, edit, last
 
       if (present(before_steps)) call put_before_steps(deck%edits, before_steps)

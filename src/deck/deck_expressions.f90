@@ -19,10 +19,10 @@ contains
    !> The value of an expression of earlier parameters. known: .false. when it has none; that is reported, except when it
    !> uses a parameter that has none itself.
    subroutine evaluate_at(deck, expression, value, known, silent)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: expression
-      real(wp), intent(out) :: value
-      logical, intent(out) :: known
+      type(deck_t), intent(in) :: deck                 !< its texts and parameters are read
+      type(token_t), intent(in) :: expression          !< place of its text, without < and >
+      real(wp), intent(out) :: value                   !< 0 where it is not known
+      logical, intent(out) :: known                    !< the expression has a value
       logical, intent(in), optional :: silent          !< nothing is reported; default .false.
       type(string_t), allocatable :: names(:)
       real(wp), allocatable :: values(:)
@@ -39,18 +39,18 @@ contains
 
    !> The deck has a parameter of the name deg: before its definition deg is nothing.
    pure logical function has_own_degree(deck)
-      type(deck_t), intent(in) :: deck
+      type(deck_t), intent(in) :: deck !< its parameters are read
 
       has_own_degree = index_of_parameter(deck, 'deg') > 0
    end function has_own_degree
 
    !> A fault of an expression, at its place. Passed over in silence when it is a parameter whose definition was reported.
    subroutine report_fault(deck, expression, fault, also, keyword)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: expression
-      type(expression_fault_t), intent(in) :: fault
+      type(deck_t), intent(in) :: deck                 !< its texts and parameters are read
+      type(token_t), intent(in) :: expression          !< the place that `fault` counts from
+      type(expression_fault_t), intent(in) :: fault    !< of this expression
       type(string_t), intent(in) :: also(:)            !< names that the expression knows besides
-      character(len=*), intent(in) :: keyword
+      character(len=*), intent(in) :: keyword          !< for `atrito help KEYWORD`
       type(token_t) :: place
       type(string_t), allocatable :: names(:)
       character(len=:), allocatable :: others
@@ -80,8 +80,8 @@ contains
 
    !> Not an array constructor: what function results hold in one is never given back (gfortran 12).
    pure subroutine put_before(first, names)
-      type(string_t), intent(in) :: first(:)
-      type(string_t), allocatable, intent(inout) :: names(:)
+      type(string_t), intent(in) :: first(:)                 !< names that come first; copied
+      type(string_t), allocatable, intent(inout) :: names(:) !< (n) becomes longer; its strings are moved
       type(string_t), allocatable :: both(:)
       integer :: i
 
@@ -97,10 +97,10 @@ contains
 
    !> The parameters that an expression names, have values and are defined before its place: a deck can have thousands of others.
    subroutine collect_known(deck, place, names, values)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: place
-      type(string_t), allocatable, intent(out) :: names(:)
-      real(wp), allocatable, intent(out) :: values(:)
+      type(deck_t), intent(in) :: deck                     !< its texts and parameters are read
+      type(token_t), intent(in) :: place                   !< of the expression
+      type(string_t), allocatable, intent(out) :: names(:) !< (n) in the order of their definitions
+      real(wp), allocatable, intent(out) :: values(:)      !< (n)
       character(len=:), allocatable :: text
       integer(ip), allocatable :: used(:)
       integer(ip) :: i, n
@@ -129,9 +129,9 @@ contains
 
    !> A parameter has a value, and is defined before a place.
    pure logical function is_known_at(deck, i, place)
-      type(deck_t), intent(in) :: deck
+      type(deck_t), intent(in) :: deck                 !< its parameters are read
       integer(ip), intent(in) :: i                     !< the parameter; 0: there is none
-      type(token_t), intent(in) :: place
+      type(token_t), intent(in) :: place               !< of an expression
 
       is_known_at = i > 0
       if (is_known_at) is_known_at = deck%parameters(i)%known .and. &
@@ -140,8 +140,8 @@ contains
 
    !> A parameter is used before its definition.
    subroutine report_later(deck, place, i, what)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: place
+      type(deck_t), intent(in) :: deck                 !< its texts and parameters are read
+      type(token_t), intent(in) :: place               !< of the name
       integer(ip), intent(in) :: i                     !< the parameter
       character(len=*), intent(in) :: what             !< what was expected
 
@@ -154,8 +154,8 @@ contains
 
    !> Index of a parameter, 0 when there is none of this name.
    pure integer(ip) function index_of_parameter(deck, name) result(i)
-      type(deck_t), intent(in) :: deck
-      character(len=*), intent(in) :: name
+      type(deck_t), intent(in) :: deck     !< its parameters are read
+      character(len=*), intent(in) :: name !< without case
 
       i = find_name(deck%parameter_names, name)
    end function index_of_parameter

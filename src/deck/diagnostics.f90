@@ -22,7 +22,7 @@ contains
 
    !> Reports an error at an item of the deck; it is counted, and reading goes on.
    subroutine report_error(deck, token, id, text, expected, known, keyword, among)
-      type(deck_t), intent(in) :: deck
+      type(deck_t), intent(in) :: deck                      !< its texts are shown
       type(token_t), intent(in) :: token                    !< where; the marker stands under it
       character(len=*), intent(in) :: id                    !< short stable name, docs/user/messages.md
       character(len=*), intent(in) :: text                  !< what is wrong
@@ -39,12 +39,12 @@ contains
 
    !> Reports an error of a card, whose `ok` is false from then on.
    subroutine refuse_card(deck, card, id, text, expected, place, known)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(inout) :: card
+      type(deck_t), intent(in) :: deck                      !< its texts are shown
+      type(card_t), intent(inout) :: card                   !< becomes not ok
       character(len=*), intent(in) :: id, text              !< as of report_error
-      character(len=*), intent(in), optional :: expected
+      character(len=*), intent(in), optional :: expected    !< as of report_error
       type(token_t), intent(in), optional :: place          !< where; its keyword when left out
-      type(string_t), intent(in), optional :: known(:)
+      type(string_t), intent(in), optional :: known(:)      !< as of report_error
       type(token_t) :: at
 
       card%ok = .false.
@@ -55,8 +55,8 @@ contains
 
    !> Refuses by name what atrito does not solve, and says what to do instead.
    subroutine report_outside(deck, token, name, subject)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: token
+      type(deck_t), intent(in) :: deck                      !< its texts are shown
+      type(token_t), intent(in) :: token                    !< where; the marker stands under it
       character(len=*), intent(in) :: name                  !< as in the deck, or as in the list
       integer, intent(in) :: subject                        !< its place, atrito_foreign_keywords
 
@@ -66,30 +66,30 @@ contains
 
    !> As report_error, a warning.
    subroutine report_warning(deck, token, id, text, expected, keyword)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: token
-      character(len=*), intent(in) :: id, text
-      character(len=*), intent(in), optional :: expected, keyword
+      type(deck_t), intent(in) :: deck                            !< its texts are shown
+      type(token_t), intent(in) :: token                          !< as of report_error
+      character(len=*), intent(in) :: id, text                    !< as of report_error
+      character(len=*), intent(in), optional :: expected, keyword !< as of report_error
 
       call report(deck, token, SEVERITY_WARNING, id, text, expected, keyword=keyword)
    end subroutine report_warning
 
    !> As report_error, a note.
    subroutine report_note(deck, token, id, text, expected, keyword)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: token
-      character(len=*), intent(in) :: id, text
-      character(len=*), intent(in), optional :: expected, keyword
+      type(deck_t), intent(in) :: deck                            !< its texts are shown
+      type(token_t), intent(in) :: token                          !< as of report_error
+      character(len=*), intent(in) :: id, text                    !< as of report_error
+      character(len=*), intent(in), optional :: expected, keyword !< as of report_error
 
       call report(deck, token, SEVERITY_NOTE, id, text, expected, keyword=keyword)
    end subroutine report_note
 
    !> Reports an error of a file as a whole, without a line.
    subroutine report_deck_error(deck, id, text, expected, keyword, source)
-      type(deck_t), intent(in) :: deck
-      character(len=*), intent(in) :: id, text
-      integer(ip), intent(in), optional :: source           !< the file; the deck itself when left out
-      character(len=*), intent(in), optional :: expected, keyword
+      type(deck_t), intent(in) :: deck                            !< its paths are shown
+      character(len=*), intent(in) :: id, text                    !< as of report_error
+      integer(ip), intent(in), optional :: source                 !< the file; the deck itself when left out
+      character(len=*), intent(in), optional :: expected, keyword !< as of report_error
       type(message_t) :: message
 
       message%severity = SEVERITY_ERROR

@@ -16,11 +16,11 @@ module atrito_edits
 
    !> In the order in which the deck is read.
    type :: edits_t
-      integer(ip) :: n = 0
-      type(edit_t), allocatable :: list(:)
-      type(growing_text_t) :: words
-      integer(ip) :: before_steps = 0                !< place of the edit, empty at first, before the first *STEP; 0: there is none
-      type(name_list_t), private :: known            !< texts that were replaced before: a deck can have one a node
+      integer(ip) :: n = 0                            !< edits so far
+      type(edit_t), allocatable :: list(:)            !< (n) or more
+      type(growing_text_t) :: words                   !< all words, one behind the other
+      integer(ip) :: before_steps = 0                 !< place of the edit, empty at first, before the first *STEP; 0: there is none
+      type(name_list_t), private :: known             !< texts that were replaced before: a deck can have one a node
       integer(ip), allocatable, private :: edit_of(:) !< an edit of each
    end type edits_t
 
@@ -30,9 +30,9 @@ contains
 
    !> Appends an edit with words of its own.
    pure subroutine append_edit(edits, source, first, last, words, is_name)
-      type(edits_t), intent(inout) :: edits
-      integer(ip), intent(in) :: source, first, last
-      character(len=*), intent(in) :: words
+      type(edits_t), intent(inout) :: edits          !< gets an edit more, of a later place
+      integer(ip), intent(in) :: source, first, last !< as of edit_t
+      character(len=*), intent(in) :: words          !< that take their place; '': they go
       logical, intent(in), optional :: is_name       !< left out: .false.
       integer(ip) :: from
 
@@ -44,8 +44,8 @@ contains
 
    !> Puts words before the first *STEP.
    pure subroutine put_before_steps(edits, words)
-      type(edits_t), intent(inout) :: edits
-      character(len=*), intent(in) :: words
+      type(edits_t), intent(inout) :: edits !< the edit before the first *STEP gets them
+      character(len=*), intent(in) :: words !< whole lines, with their ends
 
       if (edits%before_steps == 0) return
       edits%list(edits%before_steps)%from = edits%words%n + 1
@@ -55,9 +55,9 @@ contains
 
    !> Appends an edit whose words may serve again for the same text.
    pure subroutine append_known_edit(edits, text, source, first, last, words)
-      type(edits_t), intent(inout) :: edits
-      character(len=*), intent(in) :: text, words
-      integer(ip), intent(in) :: source, first, last
+      type(edits_t), intent(inout) :: edits          !< gets an edit more, of a later place
+      character(len=*), intent(in) :: text, words    !< what is replaced, by which words are found again; what takes its place
+      integer(ip), intent(in) :: source, first, last !< as of edit_t
 
       call append_edit(edits, source, first, last, words)
       call add_name(edits%known, text)
@@ -68,10 +68,10 @@ contains
 
    !> Appends an edit with the words of an earlier one of the same text, where there is one.
    pure subroutine take_known_edit(edits, text, source, first, last, found)
-      type(edits_t), intent(inout) :: edits
-      character(len=*), intent(in) :: text
-      integer(ip), intent(in) :: source, first, last
-      logical, intent(out) :: found
+      type(edits_t), intent(inout) :: edits          !< gets an edit more where the text is known
+      character(len=*), intent(in) :: text           !< what is replaced
+      integer(ip), intent(in) :: source, first, last !< as of edit_t
+      logical, intent(out) :: found                  !< an edit has been appended
       type(edit_t) :: edit
       integer(ip) :: known
 

@@ -13,9 +13,9 @@ module atrito_expression_calls
    end type argument_t
 
    type :: call_t
-      character(len=:), allocatable :: name
+      character(len=:), allocatable :: name          !< as in the expression
       integer :: first = 1, last = 1                 !< characters of the expression, with the parentheses
-      logical :: has_parentheses = .false.
+      logical :: has_parentheses = .false.           !< arguments follow, or none in ()
       type(argument_t), allocatable :: arguments(:)  !< none without parentheses
    end type call_t
 
@@ -25,11 +25,11 @@ contains
 
    !> Reads the call whose name stands at some characters of an expression.
    pure subroutine read_call(text, first, last, one, problem, place)
-      character(len=*), intent(in) :: text             !< the expression
-      integer, intent(in) :: first, last               !< of the name
-      type(call_t), intent(out) :: one
+      character(len=*), intent(in) :: text                  !< the expression
+      integer, intent(in) :: first, last                    !< of the name
+      type(call_t), intent(out) :: one                      !< of no use where there is a problem
       character(len=:), allocatable, intent(out) :: problem !< what is wrong; not allocated: nothing
-      integer, intent(out) :: place                    !< and where
+      integer, intent(out) :: place                         !< and where
       integer :: i, depth, begin
       character(len=1) :: symbol
 
@@ -61,7 +61,7 @@ contains
 
    !> Whether the first argument behind a name is one of some names: that distinguishes the minimum of a field from one of numbers.
    pure logical function has_argument_of(text, last, names)
-      character(len=*), intent(in) :: text
+      character(len=*), intent(in) :: text             !< the expression
       integer, intent(in) :: last                      !< of the name
       type(string_t), intent(in) :: names(:)           !< without case
       type(call_t) :: one

@@ -13,12 +13,12 @@ contains
 
    !> Names that a parameter cannot have: functions, and pi.
    pure logical function is_reserved_name(name)
-      character(len=*), intent(in) :: name
+      character(len=*), intent(in) :: name !< without case
 
       is_reserved_name = same_name(name, 'pi') .or. is_function(name)
    end function is_reserved_name
 
-   !> Names that parameters cannot have: the functions, `pi` and `deg`.
+   !> Names that expressions know by themselves: the functions, `pi` and, where no parameter has its name, `deg`.
    pure function reserved_names() result(names)
       type(string_t), allocatable :: names(:)
       integer :: i
@@ -33,15 +33,15 @@ contains
 
    !> Letters, digits and underscores, beginning with a letter.
    pure logical function is_name(text)
-      character(len=*), intent(in) :: text
+      character(len=*), intent(in) :: text !< without blanks round it
 
       is_name = len(text) > 0
       if (is_name) is_name = scan(text(1:1), LETTERS) == 1 .and. verify(text, LETTERS//DIGITS//'_') == 0
    end function is_name
 
-   !> Whether a name, of any case, is that of a function of one number.
+   !> Whether a name, of any case, is that of a function.
    pure logical function is_function(name)
-      character(len=*), intent(in) :: name
+      character(len=*), intent(in) :: name !< without case
       integer :: i
 
       is_function = .false.
@@ -52,8 +52,8 @@ contains
 
    !> The last character of the number that begins at `first`.
    pure integer function end_of_number(text, first) result(last)
-      character(len=*), intent(in) :: text
-      integer, intent(in) :: first
+      character(len=*), intent(in) :: text !< the expression
+      integer, intent(in) :: first         !< first digit of the number, or its point
 
       last = first
       do while (last < len(text))
@@ -69,8 +69,8 @@ contains
 
    !> The last character of the name that begins at `first`.
    pure integer function end_of_name(text, first) result(last)
-      character(len=*), intent(in) :: text
-      integer, intent(in) :: first
+      character(len=*), intent(in) :: text !< the expression
+      integer, intent(in) :: first         !< first letter of the name
 
       last = first                                    ! letter by letter: a text may have a million names
       do while (last < len(text))
@@ -81,9 +81,9 @@ contains
 
    !> The next name of a sound expression behind `last`; first > len(text) when there is none. The e of 1e5 is no name.
    pure subroutine next_name(text, last, first)
-      character(len=*), intent(in) :: text
+      character(len=*), intent(in) :: text             !< an expression whose text is sound
       integer, intent(inout) :: last                   !< 0: of the whole expression the first; then that of the name
-      integer, intent(out) :: first
+      integer, intent(out) :: first                    !< its first character
 
       do first = last + 1, len(text)
          if (first <= last) cycle

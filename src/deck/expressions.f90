@@ -30,17 +30,17 @@ module atrito_expressions
 
    !> An expression with the named values that it can use, and how far it is read.
    type :: parser_t
-      character(len=:), allocatable :: text
-      integer :: position = 1
-      integer :: depth = 0
-      type(name_list_t) :: names
-      real(wp), allocatable :: values(:)
+      character(len=:), allocatable :: text          !< the expression
+      integer :: position = 1                        !< of the next character
+      integer :: depth = 0                           !< of nested parentheses
+      type(name_list_t) :: names                     !< of variables, without case
+      real(wp), allocatable :: values(:)             !< theirs; as many
       logical :: has_degree = .true.                 !< deg is pi/180
       logical :: is_listing = .false.                !< only the text counts: calls are listed, and have no values
       type(string_t), allocatable :: fields(:)       !< then: what min and max take as first argument of a call
       type(call_t), allocatable :: calls(:)          !< those found, or those with values; not allocated: there are none
       real(wp), allocatable :: amounts(:)            !< the values
-      type(expression_fault_t) :: fault
+      type(expression_fault_t) :: fault              !< the first one
    end type parser_t
 
    integer, parameter :: DEEPEST = 100               !< nested parentheses
@@ -50,7 +50,7 @@ contains
 
    !> Evaluates an expression.
    pure subroutine evaluate_expression(text, names, values, value, fault, own_degree, calls, amounts)
-      character(len=*), intent(in) :: text
+      character(len=*), intent(in) :: text             !< the expression, without < and >
       type(string_t), intent(in) :: names(:)           !< of the variables, without case
       real(wp), intent(in) :: values(:)                !< theirs; as many
       real(wp), intent(out) :: value                   !< 0 when there is a fault
@@ -74,12 +74,12 @@ contains
 
    !> Lists what an expression has besides arithmetic. fault: of its text; what its values do is not known yet.
    pure subroutine list_calls(text, names, fields, calls, fault, own_degree)
-      character(len=*), intent(in) :: text
-      type(string_t), intent(in) :: names(:)           !< of the variables, without case
-      type(string_t), intent(in) :: fields(:)          !< what min and max may have as first argument that is no number
+      character(len=*), intent(in) :: text               !< the expression, without < and >
+      type(string_t), intent(in) :: names(:)             !< of the variables, without case
+      type(string_t), intent(in) :: fields(:)            !< what min and max may have as first argument that is no number
       type(call_t), allocatable, intent(out) :: calls(:) !< in their order
-      type(expression_fault_t), intent(out) :: fault   !< fault%text not allocated: none
-      logical, intent(in) :: own_degree                !< as in evaluate_expression
+      type(expression_fault_t), intent(out) :: fault     !< fault%text not allocated: none
+      logical, intent(in) :: own_degree                  !< as in evaluate_expression
       type(parser_t) :: parser
       real(wp) :: value
 

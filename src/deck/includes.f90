@@ -19,11 +19,11 @@ contains
 
    !> No circle, and not too deep.
    logical function may_include(deck, depth, from, name, place)
-      type(deck_t), intent(in) :: deck
+      type(deck_t), intent(in) :: deck                 !< its sources, and texts for messages
       integer, intent(in) :: depth                     !< of the includes so far
-      integer(ip), intent(in) :: from
-      character(len=*), intent(in) :: name
-      type(token_t), intent(in) :: place
+      integer(ip), intent(in) :: from                  !< source that includes it
+      character(len=*), intent(in) :: name             !< path of the file, by path_of_include
+      type(token_t), intent(in) :: place               !< where it is named, for messages
       character(len=:), allocatable :: path
       integer(lp) :: characters                    ! of all files so far
       integer(ip) :: above
@@ -51,7 +51,7 @@ contains
 
    !> The path of the file that an *INCLUDE names. Where there is none with backslashes in its name they are those of Windows.
    function path_of_include(from, name) result(path)
-      character(len=*), intent(in) :: from, name
+      character(len=*), intent(in) :: from, name !< path of the file that includes it; what stands in that file
       character(len=:), allocatable :: path
 
       path = relative_path(from, name)
@@ -76,9 +76,9 @@ contains
 
    !> A mesh of Gmsh is no deck, and stands before the steps.
    logical function is_told(deck, card, text, place)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
-      character(len=*), intent(in) :: text
+      type(deck_t), intent(in) :: deck                 !< its texts are read
+      type(card_t), intent(in) :: card                 !< *INCLUDE
+      character(len=*), intent(in) :: text             !< of the file
       type(token_t), intent(in) :: place               !< of the file's name
 
       is_told = (index(text(:min(len(text), 80)), '$MeshFormat') == 0) .or. option_word(deck, card, 'TYPE') == 'GMSH'

@@ -23,12 +23,12 @@ contains
    !> The real value of an item: a number, `<expression>` or `-<expression>` of parameters.
    !> An empty item takes the default, or is an error when there is none. ok: .false. when reported.
    subroutine get_real(deck, token, what, value, ok, default, keyword)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: token
+      type(deck_t), intent(in) :: deck                   !< its texts and parameters are read
+      type(token_t), intent(in) :: token                 !< the item
       character(len=*), intent(in) :: what               !< e.g. 'x coordinate, a real [L]'
-      real(wp), intent(out) :: value
-      logical, intent(out) :: ok
-      real(wp), intent(in), optional :: default
+      real(wp), intent(out) :: value                     !< 0 where it is not ok
+      logical, intent(out) :: ok                         !< false where that was reported
+      real(wp), intent(in), optional :: default          !< of an empty item
       character(len=*), intent(in), optional :: keyword  !< for `atrito help KEYWORD`
 
       call get_number(deck, token, what, .false., value, ok, present(default), keyword)
@@ -37,13 +37,13 @@ contains
 
    !> The integer value of an item, as get_real. It may not be written as a real; a parameter must be whole.
    subroutine get_integer(deck, token, what, value, ok, default, keyword)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: token
+      type(deck_t), intent(in) :: deck                   !< its texts and parameters are read
+      type(token_t), intent(in) :: token                 !< the item
       character(len=*), intent(in) :: what               !< e.g. 'node number, an integer'
-      integer(ip), intent(out) :: value
-      logical, intent(out) :: ok
-      integer(ip), intent(in), optional :: default
-      character(len=*), intent(in), optional :: keyword
+      integer(ip), intent(out) :: value                  !< 0 where it is not ok
+      logical, intent(out) :: ok                         !< false where that was reported
+      integer(ip), intent(in), optional :: default       !< of an empty item
+      character(len=*), intent(in), optional :: keyword  !< for `atrito help KEYWORD`
       real(wp) :: x
 
       call get_number(deck, token, what, .true., x, ok, present(default), keyword)
@@ -183,12 +183,12 @@ contains
 
    !> An item that is a name: not empty, of at most 80 characters.
    subroutine get_name(deck, token, what, name, ok, keyword)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: token
+      type(deck_t), intent(in) :: deck                   !< its texts and instances are read
+      type(token_t), intent(in) :: token                 !< the item
       character(len=*), intent(in) :: what               !< e.g. 'name of a node set'
       character(len=:), allocatable, intent(out) :: name !< as written, without quotes; names are without case
-      logical, intent(out) :: ok
-      character(len=*), intent(in), optional :: keyword
+      logical, intent(out) :: ok                         !< false where that was reported
+      character(len=*), intent(in), optional :: keyword  !< for `atrito help KEYWORD`
 
       name = token_text(deck, token)
       ok = len(name) > 0 .and. written_length(deck, token) <= LONGEST_NAME
@@ -202,11 +202,11 @@ contains
 
    !> The option of a card by its name in the table.
    pure subroutine find_option(deck, card, name, option, found)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
-      character(len=*), intent(in) :: name
-      type(option_t), intent(out) :: option
-      logical, intent(out) :: found
+      type(deck_t), intent(in) :: deck      !< its keyword table is read
+      type(card_t), intent(in) :: card      !< its options are searched
+      character(len=*), intent(in) :: name  !< as in the keyword table
+      type(option_t), intent(out) :: option !< of no use where it is not found
+      logical, intent(out) :: found         !< the option is given
       integer :: i
 
       found = .false.
@@ -223,9 +223,9 @@ contains
 
    !> Whether an option is given on the keyword line, with or without a value.
    pure logical function has_option(deck, card, name)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
-      character(len=*), intent(in) :: name
+      type(deck_t), intent(in) :: deck     !< its keyword table is read
+      type(card_t), intent(in) :: card     !< its options are searched
+      character(len=*), intent(in) :: name !< as in the keyword table
       type(option_t) :: option
 
       call find_option(deck, card, name, option, has_option)
@@ -233,11 +233,11 @@ contains
 
    !> The value of an option as written, without quotes; '' when it is not given. place: where, for messages.
    pure subroutine option_text(deck, card, name, text, found, place)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
-      character(len=*), intent(in) :: name
-      character(len=:), allocatable, intent(out) :: text
-      logical, intent(out) :: found
+      type(deck_t), intent(in) :: deck                   !< its keyword table and texts are read
+      type(card_t), intent(in) :: card                   !< its options are searched
+      character(len=*), intent(in) :: name               !< as in the keyword table
+      character(len=:), allocatable, intent(out) :: text !< without quotes
+      logical, intent(out) :: found                      !< the option is given, with a value
       type(token_t), intent(out), optional :: place      !< the value, or the keyword when not found
       type(option_t) :: option
 
@@ -253,9 +253,9 @@ contains
    !> The word chosen by an option, as the table has it; its default when it is not given. An option that may stand alone (NLGEOM)
    !> is then its first word.
    pure function option_word(deck, card, name) result(word)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
-      character(len=*), intent(in) :: name
+      type(deck_t), intent(in) :: deck     !< its keyword table and texts are read
+      type(card_t), intent(in) :: card     !< its options are searched
+      character(len=*), intent(in) :: name !< as in the keyword table
       character(len=:), allocatable :: word
       logical :: found
       integer :: i, choice
@@ -279,11 +279,11 @@ contains
 
    !> The real value of an option. found: it is given and is a real; otherwise value is untouched (and any fault reported).
    subroutine option_real(deck, card, name, what, value, found)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
-      character(len=*), intent(in) :: name, what
-      real(wp), intent(inout) :: value
-      logical, intent(out) :: found
+      type(deck_t), intent(in) :: deck           !< its keyword table, texts and parameters are read
+      type(card_t), intent(in) :: card           !< its options are searched
+      character(len=*), intent(in) :: name, what !< as in the keyword table; e.g. 'stiffness, a real [F/L]'
+      real(wp), intent(inout) :: value           !< what it is without the option, on entry
+      logical, intent(out) :: found              !< it is given and good
       type(option_t) :: option
       real(wp) :: x
 
@@ -295,11 +295,11 @@ contains
 
    !> The integer value of an option, as option_real.
    subroutine option_integer(deck, card, name, what, value, found)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
-      character(len=*), intent(in) :: name, what
-      integer(ip), intent(inout) :: value
-      logical, intent(out) :: found
+      type(deck_t), intent(in) :: deck           !< its keyword table, texts and parameters are read
+      type(card_t), intent(in) :: card           !< its options are searched
+      character(len=*), intent(in) :: name, what !< as in the keyword table; e.g. 'a number, an integer'
+      integer(ip), intent(inout) :: value        !< what it is without the option, on entry
+      logical, intent(out) :: found              !< it is given and good
       type(option_t) :: option
       integer(ip) :: i
 
@@ -311,9 +311,9 @@ contains
 
    !> Reports an option whose value is out of range. what: what it may be, in words.
    subroutine refuse_option(deck, card, name, what)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
-      character(len=*), intent(in) :: name, what
+      type(deck_t), intent(in) :: deck           !< its keyword table and texts are read
+      type(card_t), intent(in) :: card           !< has the option
+      character(len=*), intent(in) :: name, what !< as in the keyword table; e.g. 'a real > 0'
       type(option_t) :: option
       logical :: found
 

@@ -12,16 +12,16 @@ module atrito_lexer
    type :: line_t
       integer(ip) :: start = 1         !< its first character
       integer(ip) :: first = 1         !< its first and last character that are not blank
-      integer(ip) :: last = 0
-      integer :: kind = LINE_BLANK
+      integer(ip) :: last = 0          !< first - 1 of a blank line
+      integer :: kind = LINE_BLANK     !< LINE_*
       integer(ip) :: control = 0       !< its first control character; 0: none
    end type line_t
 
    !> Places of the items of a line; an empty item has last = first - 1.
    type :: items_t
-      integer(ip) :: n = 0
-      integer(ip), allocatable :: first(:), last(:)
-      integer(ip) :: bad_quote = 0     !< quote without partner, or with letters beside it; 0: none
+      integer(ip) :: n = 0                          !< items in use
+      integer(ip), allocatable :: first(:), last(:) !< (n) or more: characters of the text
+      integer(ip) :: bad_quote = 0                  !< quote without partner, or with letters beside it; 0: none
    end type items_t
 
    integer, parameter :: TAB = 9, LINE_FEED = 10, CARRIAGE_RETURN = 13, DELETE = 127
@@ -30,9 +30,9 @@ contains
 
    !> The line that begins at `position`, which moves to the next one. Ends of line are LF, CR LF, and the end of the text.
    pure subroutine take_line(text, position, line)
-      character(len=*), intent(in) :: text
-      integer(ip), intent(inout) :: position
-      type(line_t), intent(out) :: line
+      character(len=*), intent(in) :: text   !< a whole file
+      integer(ip), intent(inout) :: position !< first character of the line; then of the next one
+      type(line_t), intent(out) :: line      !< its places count from the beginning of the text
       integer(ip) :: i
       integer :: code
 
@@ -67,7 +67,7 @@ contains
 
    !> How many lines of a text are neither blank nor begin with a star.
    pure integer(lp) function count_data_lines(text) result(n)
-      character(len=*), intent(in) :: text
+      character(len=*), intent(in) :: text !< a whole file
       integer :: i, code
       logical :: is_begun                          ! the line has something, or begins with a star
 
@@ -86,8 +86,8 @@ contains
 
    !> Moves the ends of a place inwards over blanks and tabs. Of a blank place, last = first - 1.
    pure subroutine trim_place(text, first, last)
-      character(len=*), intent(in) :: text
-      integer(ip), intent(inout) :: first, last
+      character(len=*), intent(in) :: text      !< the place is in it
+      integer(ip), intent(inout) :: first, last !< characters; last = first - 1 where all is blank
 
       do while (last >= first)
          if (.not. is_blank(text(last:last))) exit
@@ -108,8 +108,8 @@ contains
    !> The items between the commas of text(first:last), commas in quotes and in <...> apart. One comma at the end of the line is
    !> free.
    pure subroutine split_items(text, first, last, items)
-      character(len=*), intent(in) :: text
-      integer(ip), intent(in) :: first, last
+      character(len=*), intent(in) :: text       !< the line is in it
+      integer(ip), intent(in) :: first, last     !< its characters
       type(items_t), intent(inout) :: items      !< its arrays are kept and grow
       integer(ip) :: i, start, quote, closing          ! closing: end of the last <...>
 
@@ -187,8 +187,8 @@ contains
 
    !> Place of the first equals sign outside quotes in text(first:last), 0 when there is none.
    pure integer(ip) function find_equals(text, first, last) result(place)
-      character(len=*), intent(in) :: text
-      integer(ip), intent(in) :: first, last
+      character(len=*), intent(in) :: text   !< the item is in it
+      integer(ip), intent(in) :: first, last !< its characters
       logical :: quoted
 
       quoted = .false.

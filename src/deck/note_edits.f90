@@ -28,7 +28,7 @@ contains
    !> Notes what is to be edited in the text so that the deck reads as it was run: values in the place of parameters and
    !> expressions, names of included meshes. Nothing where the deck has errors.
    subroutine note_edits(deck)
-      type(deck_t), intent(inout) :: deck
+      type(deck_t), intent(inout) :: deck !< its `edits` are filled
       character(len=:), allocatable :: name
       type(token_t) :: place
       integer(ip) :: i, first, n_parameters, n_meshes

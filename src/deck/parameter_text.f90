@@ -15,9 +15,9 @@ contains
 
    !> `nu = 0.3, q = 10 (--set), eps varies`, in the order of the deck; not allocated where it has none.
    subroutine list_parameters(deck, varied, text)
-      type(deck_t), intent(in) :: deck
-      type(string_t), intent(in) :: varied(:)          !< names of those that take several values
-      character(len=:), allocatable, intent(out) :: text
+      type(deck_t), intent(in) :: deck                   !< its parameters are read
+      type(string_t), intent(in) :: varied(:)            !< names of those that take several values
+      character(len=:), allocatable, intent(out) :: text !< in one line
       type(growing_text_t) :: words
       logical, allocatable :: varies(:)
       integer(ip) :: i, k

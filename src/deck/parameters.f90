@@ -18,7 +18,7 @@ module atrito_parameters
 
    !> Values that override parameters.
    type :: settings_t
-      type(name_list_t) :: names
+      type(name_list_t) :: names                   !< without case, each once
       real(wp), allocatable :: values(:)           !< as many are in use
    end type settings_t
 
@@ -30,8 +30,8 @@ contains
    !> status: STATUS_USAGE for one that is not NAME=VALUE.
    subroutine read_settings(list, settings, status)
       type(string_t), intent(in) :: list(:)            !< 'NAME=VALUE', VALUE an expression of numbers
-      type(settings_t), intent(out) :: settings
-      type(status_t), intent(out) :: status
+      type(settings_t), intent(out) :: settings        !< of no use where the status is not OK
+      type(status_t), intent(out) :: status            !< STATUS_USAGE where one is not NAME=VALUE, or has no value
       type(string_t) :: none(0)
       type(expression_fault_t) :: fault
       character(len=:), allocatable :: name
@@ -57,9 +57,9 @@ contains
 
    !> Defines the parameter of a line `name = expression`.
    subroutine define_parameter(deck, token, settings)
-      type(deck_t), intent(inout) :: deck
+      type(deck_t), intent(inout) :: deck              !< gets the parameter, unless it is faulty
       type(token_t), intent(in) :: token               !< the whole line
-      type(settings_t), intent(in) :: settings
+      type(settings_t), intent(in) :: settings         !< of --set; they go before the deck
       type(parameter_t) :: parameter
       type(token_t) :: name, expression
       integer(ip) :: equals, i
@@ -122,12 +122,12 @@ contains
 
    !> An expression in x, y and earlier parameters at some places.
    subroutine evaluate_function(deck, expression, x, values, ok, keyword)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: expression
+      type(deck_t), intent(in) :: deck                 !< its texts and parameters are read
+      type(token_t), intent(in) :: expression          !< place of its text, without < and >
       real(wp), intent(in) :: x(:, :)                  !< (2, n) [L]; without a place only the text is checked
       real(wp), intent(out) :: values(:)               !< (n)
       logical, intent(out) :: ok                       !< .false.: reported, once
-      character(len=*), intent(in) :: keyword
+      character(len=*), intent(in) :: keyword          !< for `atrito help KEYWORD`
       type(expression_fault_t) :: fault
       type(string_t), allocatable :: names(:)
       real(wp), allocatable :: known(:)
@@ -167,9 +167,9 @@ contains
 
    !> status: STATUS_USAGE when a setting names no parameter of the deck; tells those that it has.
    subroutine check_settings(deck, settings, status)
-      type(deck_t), intent(in) :: deck
-      type(settings_t), intent(in) :: settings
-      type(status_t), intent(inout) :: status
+      type(deck_t), intent(in) :: deck         !< read to its end
+      type(settings_t), intent(in) :: settings !< of --set
+      type(status_t), intent(inout) :: status  !< STATUS_USAGE without a parameter of this name; stays where not OK
       type(string_t), allocatable :: near(:), names(:)
       character(len=:), allocatable :: text
       integer :: i

@@ -16,11 +16,11 @@ module atrito_plain_lines
 
    !> Whole lines of a text, and the places of what they hold in the lists of the deck.
    type :: piece_t
-      integer(ip) :: first = 1, last = 0           !< characters
-      integer(ip) :: n_lines = 0, n_tokens = 0     !< where all of it is plain
-      integer(ip) :: line = 0, token = 0           !< in the lists before it
-      integer(ip) :: lines_taken = 0, tokens_taken = 0
-      integer(ip) :: next = 1                      !< first character that was not taken
+      integer(ip) :: first = 1, last = 0               !< characters
+      integer(ip) :: n_lines = 0, n_tokens = 0         !< where all of it is plain
+      integer(ip) :: line = 0, token = 0               !< in the lists before it
+      integer(ip) :: lines_taken = 0, tokens_taken = 0 !< of them, up to the first line that is not plain
+      integer(ip) :: next = 1                          !< first character that was not taken
    end type piece_t
 
    !> Characters of a piece, and of a run that is worth it.
@@ -36,8 +36,8 @@ contains
 
    !> Appends the lines of the run that begins at `position`, which moves behind it; none where it is short.
    subroutine take_plain_lines(deck, source, position, line)
-      type(deck_t), intent(inout) :: deck
-      integer(ip), intent(in) :: source
+      type(deck_t), intent(inout) :: deck          !< gets lines and items
+      integer(ip), intent(in) :: source            !< place in sources
       integer(ip), intent(inout) :: position       !< first character of a line
       integer(ip), intent(inout) :: line           !< number of the line before it
       type(piece_t), allocatable :: pieces(:)

@@ -43,9 +43,9 @@ module atrito_reader
 
    !> The reader between two lines.
    type :: reading_t
-      type(settings_t) :: settings
-      type(order_t) :: order
-      integer :: mode = MODE_NO_KEYWORD
+      type(settings_t) :: settings                 !< of --set
+      type(order_t) :: order                       !< steps and parts so far
+      integer :: mode = MODE_NO_KEYWORD            !< MODE_*
       integer :: depth = 0                         !< of includes
       type(status_t) :: refusal                    !< of the first include that is no plain file, or may not be read
       logical :: may_be_plain = .false.            !< the next lines may be a run of plain ones
@@ -54,7 +54,7 @@ module atrito_reader
 
    !> A place between two lines of a source.
    type :: cursor_t
-      integer(ip) :: source = 1
+      integer(ip) :: source = 1                    !< place in deck%sources
       integer(ip) :: position = 1                  !< first character of the next line
       integer(ip) :: line = 0                      !< number of the last line
    end type cursor_t
@@ -67,8 +67,8 @@ contains
    subroutine read_deck(path, settings, deck, status)
       character(len=*), intent(in) :: path             !< as the user wrote it
       type(string_t), intent(in) :: settings(:)        !< 'NAME=VALUE' of --set, in their order
-      type(deck_t), intent(out) :: deck
-      type(status_t), intent(out) :: status
+      type(deck_t), intent(out) :: deck                !< with what could be read of it
+      type(status_t), intent(out) :: status            !< OK, although the deck may have errors
       type(reading_t) :: reading
       character(len=:), allocatable :: text
       integer(lp) :: identity(2)

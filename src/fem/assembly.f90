@@ -25,8 +25,8 @@ module atrito_assembly
    !> The elements and their sections: what every sum over elements needs.
    type :: fem_t
       type(mesh_t), pointer :: mesh => null()      !< the model's: a mesh is large, and nothing changes it
-      type(bodies_t) :: bodies
-      type(elastic_t), allocatable :: sections(:)
+      type(bodies_t) :: bodies                     !< with their equations, once these are numbered
+      type(elastic_t), allocatable :: sections(:)  !< elastic constants, thickness and integration of each
       integer(ip), allocatable :: section_of(:)    !< (n_elements)
       real(wp) :: grain = 0.0_wp                   !< [L] what the last printed digits may make of equal elements; 0: nothing
       real(wp), allocatable :: heating(:)          !< (n_nodes) rise of the temperature; not allocated where nothing expands
@@ -78,9 +78,9 @@ contains
    !> Column heights of a body's matrix; where it is not numbered for its profile, those that are to be expected if it were: a
    !> column reaches over two rows of nodes across the shorter side of the box round the body.
    subroutine body_profile(fem, i_body, profile)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: i_body
-      type(profile_t), intent(out) :: profile
+      type(fem_t), intent(in) :: fem          !< the body and its elements are read
+      integer(ip), intent(in) :: i_body       !< place in the list of bodies
+      type(profile_t), intent(out) :: profile !< closed; expected where the body has no numbers for it
       integer(ip) :: i
 
       associate (body => fem%bodies%list(i_body))
@@ -99,11 +99,11 @@ contains
 
    !> Adds all elements of a body to its matrix.
    subroutine assemble_body(fem, i_body, solver, grain, is_near)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: i_body
-      class(linear_solver_t), intent(inout) :: solver
-      real(wp), intent(in), optional :: grain      !< [L] elements that differ by no more may have one stiffness
-      logical, intent(out), optional :: is_near    !< some have that are not equal
+      type(fem_t), intent(in) :: fem                  !< the body's elements, sections and equations are read
+      integer(ip), intent(in) :: i_body               !< place in the list of bodies
+      class(linear_solver_t), intent(inout) :: solver !< created with the profile of the body
+      real(wp), intent(in), optional :: grain         !< [L] elements that differ by no more may have one stiffness
+      logical, intent(out), optional :: is_near       !< some have that are not equal
       type(element_store_t) :: store
 
       call collect_elements(fem, fem%bodies%list(i_body)%elements, store, grain)
@@ -113,9 +113,9 @@ contains
 
    !> Equations and stiffnesses of elements, in their order. Equal ones that follow one another have one stiffness in common.
    subroutine collect_elements(fem, elements, store, grain)
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem               !< elements, sections and equations are read
       integer(ip), intent(in) :: elements(:)       !< of one body
-      type(element_store_t), intent(out) :: store
+      type(element_store_t), intent(out) :: store  !< a list of equations each, a matrix for those alike
       real(wp), intent(in), optional :: grain      !< [L] those that differ by no more may have one in common, too
       type(chunk_t) :: chunks(chunk_count(size(elements, kind=ip)))
       integer(ip), allocatable :: different(:)     ! the element of each matrix
@@ -287,8 +287,8 @@ contains
 
    !> Diagonal of a body's matrix at its retained equations, before any elimination.
    subroutine retained_diagonal(fem, i_body, diagonal)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: i_body
+      type(fem_t), intent(in) :: fem               !< the body's elements, sections and equations are read
+      integer(ip), intent(in) :: i_body            !< place in the list of bodies
       real(wp), intent(out) :: diagonal(:)         !< (n_retained) [F/L]
       type(stiffness_cache_t) :: cache
       logical, allocatable :: has_retained(:)          !< (elements of the body)
@@ -319,9 +319,9 @@ contains
 
    !> Puts the stiffness of an element into cache%k, computing it only when the element differs from the one before.
    pure subroutine cached_stiffness(fem, element, cache)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: element
-      type(stiffness_cache_t), intent(inout) :: cache
+      type(fem_t), intent(in) :: fem                  !< mesh and sections are read
+      integer(ip), intent(in) :: element              !< place in the mesh
+      type(stiffness_cache_t), intent(inout) :: cache !< of any element before, or empty
       integer(ip) :: n
 
       if (has_form(fem, element, cache%form_t, 0.0_wp, may_turn=.true.)) return
@@ -334,9 +334,9 @@ contains
    !> Whether an element has this form; where that is enough, a triangle also turned by 180 degrees, as every other one of a block
    !> is: their stiffness is the same to the last bit.
    pure logical function has_form(fem, element, form, grain, may_turn)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: element
-      type(form_t), intent(in) :: form
+      type(fem_t), intent(in) :: fem               !< mesh and sections are read
+      integer(ip), intent(in) :: element           !< place in the mesh
+      type(form_t), intent(in) :: form             !< of another element, or empty
       real(wp), intent(in) :: grain                !< [L] 0: equal but for rounding
       logical, intent(in) :: may_turn              !< whether a triangle may be turned
 
@@ -355,9 +355,9 @@ contains
 
    !> The form of an element.
    pure subroutine take_form(fem, element, form)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: element
-      type(form_t), intent(inout) :: form
+      type(fem_t), intent(in) :: fem      !< mesh and sections are read
+      integer(ip), intent(in) :: element  !< place in the mesh
+      type(form_t), intent(inout) :: form !< what it was is overwritten
       integer(ip) :: k, n
 
       form%section = fem%section_of(element)

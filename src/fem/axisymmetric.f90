@@ -37,7 +37,7 @@ contains
    !> kappa V theta_m^2 and that of the deviator: lambda = -2/3 G of the dilatation itself, kappa = lambda + 2/3 G.
    pure subroutine axisymmetric_stiffness(x, section, state, k, radius)
       real(wp), intent(in) :: x(:, :)              !< coordinates [L], (2, n)
-      type(elastic_t), intent(in) :: section
+      type(elastic_t), intent(in) :: section       !< elastic constants, thickness and integration
       integer(ip), intent(in) :: state             !< place in STATES
       real(wp), intent(out) :: k(:, :)             !< (2n, 2n)
       real(wp), intent(in), optional :: radius     !< of the origin of x [L]; default 0
@@ -71,8 +71,10 @@ contains
 
    !> Strains at a point of the rule of n_points.
    pure function strain_rows(x, origin, thickness, state, n_points, point) result(rows)
-      real(wp), intent(in) :: x(:, :), origin, thickness
-      integer(ip), intent(in) :: state, n_points, point
+      real(wp), intent(in) :: x(:, :)                   !< (2, n) coordinates [L]
+      real(wp), intent(in) :: origin                    !< radius of the origin of x [L]
+      real(wp), intent(in) :: thickness                 !< of the section, 1 of rings [L]
+      integer(ip), intent(in) :: state, n_points, point !< place in STATES; points of the rule; which of them
       type(strain_rows_t) :: rows
       real(wp) :: xi(2), weight, n(size(x, 2)), slopes(size(x, 2), 2), j(2, 2), jacobian, r, relative(2, size(x, 2))
       integer(ip) :: n_nodes, i
@@ -95,10 +97,10 @@ contains
 
    !> Adds what a Gauss point gives to the upper triangle.
    pure subroutine add_point(n, rows, lambda, shear, k)
-      integer(ip), intent(in) :: n
-      type(strain_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: n                 !< nodes
+      type(strain_rows_t), intent(in) :: rows      !< strains at the point, and its weight
       real(wp), intent(in) :: lambda, shear        !< [F/L^2]
-      real(wp), intent(inout) :: k(2*n, 2*n)
+      real(wp), intent(inout) :: k(2*n, 2*n)       !< upper triangle, is added to [F/L]
       real(wp) :: bulk, stiff, g1, g2, h, theta
       integer(ip) :: a, b
 
@@ -123,10 +125,10 @@ contains
 
    !> The same of any elasticity: B of a node has the rows [g1, 0], [0, g2], [h, 0], [g2, g1] of the components 11, 22, 33, 12.
    pure subroutine add_orthotropic_point(n, rows, c, k)
-      integer(ip), intent(in) :: n
-      type(strain_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: n                 !< nodes
+      type(strain_rows_t), intent(in) :: rows      !< strains at the point, and its weight
       real(wp), intent(in) :: c(SPATIAL, SPATIAL)  !< [F/L^2]
-      real(wp), intent(inout) :: k(2*n, 2*n)
+      real(wp), intent(inout) :: k(2*n, 2*n)       !< upper triangle, is added to [F/L]
       real(wp) :: b(SPATIAL, 2*n)
       integer(ip) :: j
 
@@ -168,8 +170,10 @@ contains
 
    !> The means of all strains over the volume of an element, whose weight is the volume.
    pure function mean_strain_rows(x, origin, thickness, state) result(mean)
-      real(wp), intent(in) :: x(:, :), origin, thickness
-      integer(ip), intent(in) :: state
+      real(wp), intent(in) :: x(:, :)   !< (2, n) coordinates [L]
+      real(wp), intent(in) :: origin    !< radius of the origin of x [L]
+      real(wp), intent(in) :: thickness !< of the section, 1 of rings [L]
+      integer(ip), intent(in) :: state  !< place in STATES
       type(strain_rows_t) :: mean, rows
       integer(ip) :: point, n
 
@@ -201,8 +205,8 @@ contains
    !> entries of axial dofs are rounded to a grid on which sums are exact, and the one of the row's own node follows from the
    !> others; it is no entry of another row but by symmetry, so nothing contradicts.
    pure subroutine balance_axis(n, k)
-      integer(ip), intent(in) :: n
-      real(wp), intent(inout) :: k(2*n, 2*n)
+      integer(ip), intent(in) :: n           !< nodes
+      real(wp), intent(inout) :: k(2*n, 2*n) !< upper triangle on entry, both on return [F/L]
       real(wp) :: shift, largest
       integer(ip) :: i, a, b
 

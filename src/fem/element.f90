@@ -44,11 +44,11 @@ contains
    !> the work of the dilatation and that of the rest, so that the integrals of ga gb' are all that is wanted of the Gauss points.
    !> The mean dilatation changes the first part alone. Only pairs a < b are computed: the blocks of the diagonal follow from them.
    pure subroutine element_stiffness(x, section, state, k, radius, thickness)
-      real(wp), intent(in) :: x(:, :)              !< coordinates [L], (2, n)
-      type(elastic_t), intent(in) :: section
-      integer(ip), intent(in) :: state             !< place in STATES
-      real(wp), intent(out) :: k(:, :)             !< (2n, 2n)
-      real(wp), intent(in), optional :: radius     !< of the origin of x [L], where that matters; default 0
+      real(wp), intent(in) :: x(:, :)                !< coordinates [L], (2, n)
+      type(elastic_t), intent(in) :: section         !< elastic constants, thickness and integration
+      integer(ip), intent(in) :: state               !< place in STATES
+      real(wp), intent(out) :: k(:, :)               !< (2n, 2n)
+      real(wp), intent(in), optional :: radius       !< of the origin of x [L], where that matters; default 0
       real(wp), intent(in), optional :: thickness(:) !< of the nodes [L], of a tapered state
       real(wp) :: upper(MOST_DOFS, MOST_DOFS), relative(2, MOST_NODES), d(COMPONENTS, COMPONENTS), bulk, shear, middle
       integer(ip) :: n, i, j

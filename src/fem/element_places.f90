@@ -30,10 +30,10 @@ contains
    !> The elements that hold some points, point by point: of each body that does one, the first. A point that lies outside of all
    !> has none.
    subroutine find_places(mesh, wanted, x, places)
-      type(mesh_t), intent(in) :: mesh
-      logical, intent(in) :: wanted(:)                !< (n_elements) those that count
-      real(wp), intent(in) :: x(:, :)                 !< (2, points) [L]
-      type(place_t), allocatable, intent(out) :: places(:)
+      type(mesh_t), intent(in) :: mesh                     !< nodes of elements and their places are read
+      logical, intent(in) :: wanted(:)                     !< (n_elements) those that count
+      real(wp), intent(in) :: x(:, :)                      !< (2, points) [L]
+      type(place_t), allocatable, intent(out) :: places(:) !< by points, ascending
       type(place_t), allocatable :: found(:)
       integer(ip), allocatable :: order(:), n_of(:)
       integer(ip) :: i, k, n
@@ -164,7 +164,7 @@ contains
 
    !> The element that is nearest to a point outside of all, and how far its edge is; sides count as straight between their nodes.
    pure subroutine find_nearest(mesh, wanted, x, element, distance)
-      type(mesh_t), intent(in) :: mesh
+      type(mesh_t), intent(in) :: mesh                !< nodes of elements and their places are read
       logical, intent(in) :: wanted(:)                !< (n_elements) those that count
       real(wp), intent(in) :: x(2)                    !< [L]
       integer(ip), intent(out) :: element             !< 0: none counts

@@ -40,10 +40,10 @@ contains
 
    !> Integrates (s* - s) C (s* - s) and s C s, C the compliance, by the Gauss rule of the stiffness, of triangles by a finer one.
    subroutine measure_error(fem, u, field, energies, unit, element_error)
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem                !< mesh and sections are read
       real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
       type(stress_field_t), intent(in) :: field     !< recovered from u
-      type(energies_t), intent(out) :: energies
+      type(energies_t), intent(out) :: energies     !< sums over all elements, over unit**2
       real(wp), intent(in), optional :: unit        !< displacements and stresses are divided by it first: a power of two, so that
       !< squares of very large or small ones stay in the range of numbers
       real(wp), intent(out), optional :: element_error(:) !< (n_elements) share of the relative error, whose square is the sum of
@@ -55,10 +55,10 @@ contains
 
    !> The integrals alone.
    subroutine integrate_error(fem, u, field, energies, unit, square)
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem                !< mesh and sections are read
       real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
-      type(stress_field_t), intent(in) :: field
-      type(energies_t), intent(out) :: energies
+      type(stress_field_t), intent(in) :: field     !< recovered from u
+      type(energies_t), intent(out) :: energies     !< sums over all elements, over unit**2
       real(wp), intent(in), optional :: unit        !< as that of measure_error
       real(wp), intent(out), optional :: square(:)  !< (n_elements) ||e||^2 [F L]
       type(point_rule_t) :: rules(MOST_NODES)
@@ -82,7 +82,7 @@ contains
 
    !> From ||e||^2 of the elements to their shares of the relative error [%].
    pure function share_errors(energies, squares) result(shares)
-      type(energies_t), intent(in) :: energies
+      type(energies_t), intent(in) :: energies      !< of all elements
       real(wp), intent(in) :: squares(:)            !< [F L]
       real(wp) :: shares(size(squares))
 
@@ -306,7 +306,7 @@ contains
    !> 100 ||e|| / sqrt(||u||^2 + ||e||^2) [%]; 0 where the error is not more than the round-off of the displacements, which holds
    !> for a body at rest or in rigid motion, too.
    pure real(wp) function relative_error(energies) result(percent)
-      type(energies_t), intent(in) :: energies
+      type(energies_t), intent(in) :: energies !< of all elements
 
       percent = 0.0_wp
       if (energies%error <= ROUNDINGS**2*energies%round_off) return

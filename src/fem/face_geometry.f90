@@ -27,7 +27,7 @@ contains
    !> dx/dt [L] at t in [-1,1], in the direction of travel.
    pure function face_direction(x, t) result(d)
       real(wp), intent(in) :: x(:, :)              !< the face's nodes in the order of face_nodes [L], (2, 2 or 3)
-      real(wp), intent(in) :: t
+      real(wp), intent(in) :: t                    !< in [-1,1]
       real(wp) :: d(2)
 
       d = matmul(x, face_shape_slopes(size(x, 2, kind=ip), t))
@@ -55,7 +55,7 @@ contains
 
    !> Five Gauss points on [-1,1] and their weights: exact to degree 9.
    pure subroutine line_rule(place, weight)
-      real(wp), intent(out) :: place(RULE_POINTS), weight(RULE_POINTS)
+      real(wp), intent(out) :: place(RULE_POINTS), weight(RULE_POINTS) !< ascending in [-1,1]; their sum is 2
 
       place = [-POINTS(2), -POINTS(1), 0.0_wp, POINTS]
       weight = [WEIGHTS(2), WEIGHTS(1), MIDDLE_WEIGHT, WEIGHTS]

@@ -10,9 +10,9 @@ contains
 
    !> Mesh and sections of some elements, in their order; bodies and equations are not made.
    subroutine take_piece(fem, nodes, elements, piece)
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem             !< of all elements
       integer(ip), intent(in) :: nodes(:)        !< all nodes of the elements, each once
-      integer(ip), intent(in) :: elements(:)
+      integer(ip), intent(in) :: elements(:)     !< places in the mesh, in the order wanted
       type(fem_t), intent(inout) :: piece        !< its mesh is made here: whoever has the piece gives it back
       integer(ip), allocatable :: local(:)
       integer(ip) :: i, before

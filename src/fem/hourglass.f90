@@ -22,8 +22,8 @@ contains
 
    !> The element (the user's number) of a body of one element, whose supports leave its hourglass free; 0: there is none.
    integer(ip) function free_hourglass(fem, body) result(element)
-      type(fem_t), intent(in) :: fem
-      type(body_t), intent(in) :: body
+      type(fem_t), intent(in) :: fem   !< the body's elements and equations are read
+      type(body_t), intent(in) :: body !< one of fem's
       real(wp) :: x(2, EIGHT), shapes(2*EIGHT, RIGID + 1), motions(2*EIGHT, RIGID)
       logical :: is_held(2*EIGHT)
       logical :: found
@@ -81,11 +81,11 @@ contains
    !> hourglasses, over that which reduced integration sees in their displacements, both without lateral strains. With the element
    !> (the user's number) in which most of it is unseen. 0: there are none.
    subroutine worst_hourglass(fem, body, u, ratio, element)
-      type(fem_t), intent(in) :: fem
-      type(body_t), intent(in) :: body
+      type(fem_t), intent(in) :: fem               !< the body's elements are read
+      type(body_t), intent(in) :: body             !< one of fem's
       real(wp), intent(in) :: u(:, :)              !< (2, n_nodes) [L]
-      real(wp), intent(out) :: ratio
-      integer(ip), intent(out) :: element
+      real(wp), intent(out) :: ratio               !< unseen over seen energy, >= 0
+      integer(ip), intent(out) :: element          !< the user's number; 0: there is none
       integer(ip), allocatable :: on_sides(:)      ! of each node in the middle of a side the elements there
       integer(ip) :: i
       real(wp) :: seen, all_seen, whole, most_unseen

@@ -24,8 +24,8 @@ module atrito_internal_forces
    !> What a part of the elements gives to nodes of earlier parts.
    type :: late_forces_t
       integer(ip) :: part = 0                        !< of the elements, from which they come
-      integer(ip) :: n = 0
-      integer(ip), allocatable :: node(:)
+      integer(ip) :: n = 0                           !< nodes that forces are kept for
+      integer(ip), allocatable :: node(:)            !< (n or more) places; a node may come several times
       real(wp), allocatable :: force(:, :)           !< (2, n) [F]
    end type late_forces_t
 
@@ -33,7 +33,7 @@ contains
 
    !> Adds the nodal forces K u of all elements to `force`, and u K u / 2 to `energy`.
    subroutine internal_forces(fem, u, force, energy)
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem                 !< mesh and sections are read
       real(wp), intent(in) :: u(:, :)                !< (2, n_nodes) [L]
       real(wp), intent(inout) :: force(:, :)         !< (2, n_nodes) [F]
       real(wp), intent(inout) :: energy              !< [F L]
@@ -227,7 +227,7 @@ contains
 
    !> Sums of |K||u| over the elements, which measure the round-off of internal_forces; wanted seldom, so done plainly.
    pure subroutine internal_force_sizes(fem, u, size_of_force)
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem                 !< mesh and sections are read
       real(wp), intent(in) :: u(:, :)                !< (2, n_nodes) [L]
       real(wp), intent(out) :: size_of_force(:, :)   !< (2, n_nodes) [F]
       type(stiffness_cache_t) :: cache

@@ -18,7 +18,7 @@ module atrito_large_deformation
    type :: deformation_t
       real(wp) :: strain = 0.0_wp                  !< largest absolute principal strain in the plane, or round the circle
       real(wp) :: rotation = 0.0_wp                !< largest |du2/dx1 - du1/dx2|/2 [rad]
-      integer(ip) :: strain_element = 0, rotation_element = 0
+      integer(ip) :: strain_element = 0, rotation_element = 0 !< places in the mesh; 0: none was looked at
       real(wp) :: strain_x(2) = 0.0_wp, rotation_x(2) = 0.0_wp !< [L]
    end type deformation_t
 
@@ -28,7 +28,7 @@ contains
    !> move apart, a and b, rotates by (a.e - b.d)/2(d x e), four nodes in their middle exactly so. With more nodes a side whose
    !> middle leaves the chord by m rotates at its ends by 4 |m| over its length besides.
    logical function may_rotate(mesh, u, bound)
-      type(mesh_t), intent(in) :: mesh
+      type(mesh_t), intent(in) :: mesh             !< elements and places of the nodes are read
       real(wp), intent(in) :: u(:, :)              !< (2, n_nodes) [L]
       real(wp), intent(in) :: bound                !< [rad]
       integer(ip) :: e
@@ -81,11 +81,11 @@ contains
 
    !> The largest strain and rotation at the best points, of all elements or of those that may rotate by more than a bound.
    subroutine measure_deformation(fem, u, whole, bound, largest)
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem               !< mesh and sections are read
       real(wp), contiguous, intent(in) :: u(:, :)  !< (2, n_nodes) [L]
       logical, intent(in) :: whole                 !< all elements
       real(wp), intent(in) :: bound                !< else those that may rotate by more [rad]
-      type(deformation_t), intent(out) :: largest
+      type(deformation_t), intent(out) :: largest  !< with zeros where nothing was looked at
       type(point_rule_t) :: rules(MOST_NODES)
       type(point_geometry_t) :: geometry
       integer(ip) :: e

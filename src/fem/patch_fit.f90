@@ -41,24 +41,24 @@ module atrito_patch_fit
 
    !> Samples, and the patch that was laid last: another one with its samples at the same places takes its coordinates and factor.
    type :: patch_fit_t
-      integer(ip) :: n = 0                           !< samples
-      real(wp), allocatable :: x(:, :)               !< (2, n or more) their places less the patch's node [L]
-      real(wp), allocatable :: s(:, :)               !< (COMPONENTS, n or more) [F/L^2]
-      integer(ip) :: n_laid = 0, degree = -1         !< samples of the patch laid last, degree of its terms
-      real(wp), allocatable :: laid(:, :)            !< their places
-      real(wp), allocatable :: p(:, :)               !< (MOST_TERMS, n_laid) terms at the samples
-      real(wp) :: axis(2, 2) = 0.0_wp
+      integer(ip) :: n = 0                                !< samples
+      real(wp), allocatable :: x(:, :)                    !< (2, n or more) their places less the patch's node [L]
+      real(wp), allocatable :: s(:, :)                    !< (COMPONENTS, n or more) [F/L^2]
+      integer(ip) :: n_laid = 0, degree = -1              !< samples of the patch laid last, degree of its terms
+      real(wp), allocatable :: laid(:, :)                 !< their places
+      real(wp), allocatable :: p(:, :)                    !< (MOST_TERMS, n_laid) terms at the samples
+      real(wp) :: axis(2, 2) = 0.0_wp                     !< of the patch laid last: columns xi and eta [1/L]
       real(wp) :: factor(MOST_TERMS, MOST_TERMS) = 0.0_wp !< lower Cholesky factor of the normal equations
-      integer(ip) :: n_good = 0                      !< leading terms that the samples determine
-      integer(ip) :: n_weighted = 0                  !< terms that the weights are made of
-      real(wp), allocatable :: weight(:)             !< (n_laid) of the samples in the value at the patch's node
+      integer(ip) :: n_good = 0                           !< leading terms that the samples determine
+      integer(ip) :: n_weighted = 0                       !< terms that the weights are made of
+      real(wp), allocatable :: weight(:)                  !< (n_laid) of the samples in the value at the patch's node
    end type patch_fit_t
 
 contains
 
    !> Forgets the samples.
    pure subroutine clear_samples(fit)
-      type(patch_fit_t), intent(inout) :: fit
+      type(patch_fit_t), intent(inout) :: fit !< its patch stays laid
 
       fit%n = 0
    end subroutine clear_samples
@@ -67,7 +67,7 @@ contains
    pure subroutine add_sample(x, s, fit)
       real(wp), intent(in) :: x(2)                   !< less the patch's node [L]
       real(wp), intent(in) :: s(COMPONENTS)          !< [F/L^2]
-      type(patch_fit_t), intent(inout) :: fit
+      type(patch_fit_t), intent(inout) :: fit        !< gets one sample more
 
       if (.not. allocated(fit%x)) allocate (fit%x(2, 64), fit%s(COMPONENTS, 64))
       if (fit%n == size(fit%x, 2)) then
@@ -83,7 +83,7 @@ contains
    pure logical function is_laid(degree, slack, fit)
       integer(ip), intent(in) :: degree              !< 1 or 2
       real(wp), intent(in) :: slack                  !< [L], the rounding of the coordinates
-      type(patch_fit_t), intent(in) :: fit
+      type(patch_fit_t), intent(in) :: fit           !< with all samples of the patch
       integer(ip) :: i
 
       is_laid = .false.
@@ -100,7 +100,7 @@ contains
    pure subroutine lay_patch(corners, degree, fit)
       real(wp), intent(in) :: corners(:, :)          !< corners of the elements less the patch's node (2, n) [L]
       integer(ip), intent(in) :: degree              !< 1 or 2
-      type(patch_fit_t), intent(inout) :: fit
+      type(patch_fit_t), intent(inout) :: fit        !< with all samples of the patch
       real(wp) :: moments(MOST_TERMS, MOST_TERMS)
       integer(ip) :: i, j, n
 
@@ -197,7 +197,7 @@ contains
    !> The highest degree, up to the given one, that the samples of the patch determine.
    pure integer(ip) function determined_degree(degree, fit)
       integer(ip), intent(in) :: degree              !< not above that of lay_patch
-      type(patch_fit_t), intent(in) :: fit
+      type(patch_fit_t), intent(in) :: fit           !< with the samples laid
 
       determined_degree = degree
       do while (determined_degree > 0 .and. term_count(determined_degree) > fit%n_good)
@@ -209,8 +209,8 @@ contains
    !> are made when the first node asks: L L' y = p_0, w_j = p_j'y.
    pure subroutine fit_node(degree, fit, s)
       integer(ip), intent(in) :: degree              !< not above determined_degree
-      type(patch_fit_t), intent(inout) :: fit
-      real(wp), intent(out) :: s(COMPONENTS)
+      type(patch_fit_t), intent(inout) :: fit        !< with the samples laid; its weights may be made
+      real(wp), intent(out) :: s(COMPONENTS)         !< in the order of the samples' components [F/L^2]
       real(wp) :: y(1, MOST_TERMS)
       integer(ip) :: j, n
 
@@ -232,8 +232,8 @@ contains
    !> The polynomial of a degree, for other nodes: its coefficients from M a = sum_j p_j (s_j - s_1), and s_1 added to the first.
    pure subroutine fit_polynomial(degree, fit, polynomial)
       integer(ip), intent(in) :: degree              !< not above determined_degree
-      type(patch_fit_t), intent(in) :: fit
-      type(polynomial_t), intent(out) :: polynomial
+      type(patch_fit_t), intent(in) :: fit           !< with the samples laid
+      type(polynomial_t), intent(out) :: polynomial  !< of the patch laid last
       real(wp) :: right(MOST_TERMS, COMPONENTS)
       integer(ip) :: i, j, n
 
@@ -275,7 +275,7 @@ contains
    !> Value of a polynomial [F/L^2].
    pure function fitted_value(x, polynomial) result(s)
       real(wp), intent(in) :: x(2)                   !< less the patch's node [L]
-      type(polynomial_t), intent(in) :: polynomial
+      type(polynomial_t), intent(in) :: polynomial   !< of the patch whose node x is relative to
       real(wp) :: s(COMPONENTS)
       real(wp) :: p(MOST_TERMS)
       integer(ip) :: i

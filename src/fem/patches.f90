@@ -27,7 +27,7 @@ module atrito_patches
       integer(ip), allocatable :: place(:, :)     !< (most nodes of an element, n_elements): places of an element's nodes
       integer(ip), allocatable :: kind(:)         !< (n) PATCH_*
       integer(ip), allocatable :: first(:)        !< (n + 1): element(first(i):first(i+1)-1) have place i as a corner
-      integer(ip), allocatable :: element(:), corner(:)
+      integer(ip), allocatable :: element(:), corner(:) !< at a corner: place in the mesh; which corner of it
       integer(ip), allocatable :: owner(:)        !< (n) the first element that a place belongs to; 0: none
       logical, allocatable :: lends(:)            !< (n_elements) a node of the element takes its stress from patches of other nodes
       integer(ip), allocatable :: helper(:)       !< (n_elements, or none) of a triangle without a patch: its neighbour with one; 0
@@ -37,8 +37,8 @@ contains
 
    !> Zones, places and patches of all elements.
    subroutine build_patches(fem, patches)
-      type(fem_t), intent(in) :: fem
-      type(patches_t), intent(out) :: patches
+      type(fem_t), intent(in) :: fem          !< mesh and sections are read
+      type(patches_t), intent(out) :: patches !< of all zones
 
       call number_places(fem%mesh, zones_of_elements(fem), patches)
       call list_elements_at_corners(fem%mesh, patches)

@@ -33,7 +33,7 @@ contains
    !> A field at a place. Polar components at their centre are nan.
    pure real(wp) function place_field(field, at) result(value)
       integer, intent(in) :: field                    !< place in PLACE_FIELDS
-      type(place_values_t), intent(in) :: at
+      type(place_values_t), intent(in) :: at          !< displacements, stresses and strains there
       real(wp) :: s(3)
 
       select case (PLACE_FIELDS(field))
@@ -72,7 +72,7 @@ contains
 
    !> Displacement along a direction and along that turned by +90 degrees; normal stresses along both, and the shear stress between.
    pure function along_direction(at, n) result(v)
-      type(place_values_t), intent(in) :: at
+      type(place_values_t), intent(in) :: at          !< displacements and stresses are read
       real(wp), intent(in) :: n(2)                    !< unit vector
       real(wp) :: v(5)
 
@@ -95,7 +95,7 @@ contains
 
    !> Strains e11, e22, e12 = du1/dy + du2/dx at the nodes: the mean over the elements round each; 0 in no element.
    pure subroutine nodal_strains(mesh, u, strain)
-      type(mesh_t), intent(in) :: mesh
+      type(mesh_t), intent(in) :: mesh                   !< elements and places of the nodes are read
       real(wp), intent(in) :: u(:, :)                 !< (2, n_nodes) [L]
       real(wp), allocatable, intent(out) :: strain(:, :) !< (3, n_nodes)
       real(wp) :: jacobian(2, 2), inverse(2, 2), slope(2, 2)

@@ -27,8 +27,8 @@ module atrito_point_stress
 
    !> A Gauss rule with the shape functions of one kind of element.
    type :: point_rule_t
-      integer(ip) :: n = 0
-      real(wp) :: weight(MOST_POINTS) = 0.0_wp
+      integer(ip) :: n = 0                                      !< points, the first ones of each list
+      real(wp) :: weight(MOST_POINTS) = 0.0_wp                  !< of the points, on the parent square or triangle
       real(wp) :: value(MOST_POINTS, MOST_NODES) = 0.0_wp       !< shape functions at each point
       real(wp) :: slope(MOST_POINTS, 2, MOST_NODES) = 0.0_wp    !< their derivatives along xi and eta
    end type point_rule_t
@@ -36,7 +36,7 @@ module atrito_point_stress
    !> An element at the points of a rule, without its displacements.
    type, extends(form_t) :: point_geometry_t
       real(wp) :: d(COMPONENTS, COMPONENTS) = 0.0_wp               !< elasticity matrix [F/L^2]
-      logical :: is_orthotropic = .false.
+      logical :: is_orthotropic = .false.        !< s33 goes by `across`, not by E and mu
       real(wp) :: across(4) = 0.0_wp             !< then s33 by e11, e22, 2 e12 and e33 [F/L^2]
       logical :: averages = .false.              !< the dilatation is the same everywhere in the element: FORMULATION=BBAR
       real(wp) :: mean(2, MOST_CORNERS) = 0.0_wp     !< then the mean gradients of the shape functions [1/L]
@@ -64,7 +64,7 @@ contains
    pure subroutine make_point_rule(n_nodes, n, rule)
       integer(ip), intent(in) :: n_nodes         !< of the element: place in SHAPES
       integer(ip), intent(in) :: n               !< 1, 4 or 9; of triangles 1, 3 or 6
-      type(point_rule_t), intent(out) :: rule
+      type(point_rule_t), intent(out) :: rule    !< shape functions at its n points
       real(wp) :: xi(2)
       integer(ip) :: k
 
@@ -78,9 +78,9 @@ contains
 
    !> An element at the points of a rule; nothing is done when it is like the element that is there.
    pure subroutine fetch_geometry(fem, e, rule, geometry)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: e
-      type(point_rule_t), intent(in) :: rule
+      type(fem_t), intent(in) :: fem                     !< mesh and sections are read
+      integer(ip), intent(in) :: e                       !< place in the mesh
+      type(point_rule_t), intent(in) :: rule             !< that of the element's shape
       type(point_geometry_t), intent(inout) :: geometry  !< of another element by the same rule, or nothing
       real(wp) :: mean(2, 4), volume
       integer(ip) :: k
@@ -154,12 +154,12 @@ contains
    !> integration they are spread from its points (fetch_geometry). Displacements are taken relative to the first node, so that a
    !> rigid translation costs no digits. Axisymmetric elements have a hoop stress s33 of its own.
    pure subroutine point_stresses(fem, e, u, rule, geometry, s, hoop)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: e
-      real(wp), intent(in) :: u(:, :)            !< (2, n_nodes) [L]
-      type(point_rule_t), intent(in) :: rule
-      type(point_geometry_t), intent(in) :: geometry     !< of the element by the rule
-      real(wp), intent(inout) :: s(MOST_POINTS, COMPONENTS) !< the first rule%n are set
+      type(fem_t), intent(in) :: fem                         !< mesh, sections and temperatures are read
+      integer(ip), intent(in) :: e                           !< place in the mesh
+      real(wp), intent(in) :: u(:, :)                        !< (2, n_nodes) [L]
+      type(point_rule_t), intent(in) :: rule                 !< that of the element's shape
+      type(point_geometry_t), intent(in) :: geometry         !< of the element by the rule
+      real(wp), intent(inout) :: s(MOST_POINTS, COMPONENTS)  !< the first rule%n are set
       real(wp), intent(inout), optional :: hoop(MOST_POINTS) !< s33 [F/L^2]; the first rule%n are set, of axisymmetric elements
       real(wp) :: way(2, MOST_NODES), dilatation
       integer(ip) :: k, first
@@ -217,11 +217,11 @@ contains
    !> The strains of the temperature at the points, alpha times its rise, which the element's shape functions interpolate: as the
    !> stiffness knows its strains, with reduced integration from its points alone, with the mean dilatation in the mean.
    pure subroutine point_thermal_strains(fem, e, rule, geometry, strain)
-      type(fem_t), intent(in) :: fem             !< with temperatures
-      integer(ip), intent(in) :: e
-      type(point_rule_t), intent(in) :: rule
-      type(point_geometry_t), intent(in) :: geometry     !< of the element by the rule
-      real(wp), intent(out) :: strain(MOST_POINTS) !< the first rule%n are set
+      type(fem_t), intent(in) :: fem                 !< with temperatures
+      integer(ip), intent(in) :: e                   !< place in the mesh
+      type(point_rule_t), intent(in) :: rule         !< that of the element's shape
+      type(point_geometry_t), intent(in) :: geometry !< of the element by the rule
+      real(wp), intent(out) :: strain(MOST_POINTS)   !< the first rule%n are set
       real(wp) :: value(MOST_POINTS, MOST_NODES), rise(MOST_NODES), volume
       integer(ip) :: n
 
@@ -242,11 +242,11 @@ contains
 
    !> What stands behind a point of an element.
    pure real(wp) function point_depth(geometry, rule, i, thickness, x1) result(depth)
-      type(point_geometry_t), intent(in) :: geometry
-      type(point_rule_t), intent(in) :: rule
-      integer(ip), intent(in) :: i               !< point
-      real(wp), intent(in) :: thickness          !< of the section [L]
-      real(wp), intent(in) :: x1                 !< of the element's first node [L]
+      type(point_geometry_t), intent(in) :: geometry !< of the element by the rule
+      type(point_rule_t), intent(in) :: rule         !< that of the element's shape
+      integer(ip), intent(in) :: i                   !< point
+      real(wp), intent(in) :: thickness              !< of the section [L]
+      real(wp), intent(in) :: x1                     !< of the element's first node [L]
 
       if (IS_TAPERED(geometry%state)) then
          depth = depth_at(geometry%state, thickness, dot_product(rule%value(i, :geometry%shape), &
@@ -258,9 +258,9 @@ contains
 
    !> Means of the shape functions over the volume, and that of the full circle where there is one, else the area times the unit.
    pure subroutine find_means(geometry, mean, volume)
-      type(point_geometry_t), intent(in) :: geometry
-      real(wp), intent(out) :: mean(geometry%shape)
-      real(wp), intent(out) :: volume
+      type(point_geometry_t), intent(in) :: geometry !< of the element
+      real(wp), intent(out) :: mean(geometry%shape)  !< means of the shape functions
+      real(wp), intent(out) :: volume                !< [L^3]; without a circle the area [L^2], or taper times it
       real(wp) :: xi(2), weight, j(2, 2), n(geometry%shape)
       integer(ip) :: k
 
@@ -284,7 +284,7 @@ contains
 
    !> Whether the strains are means over the volume: the mean dilatation, and all those of some reduced elements.
    pure logical function takes_means(geometry)
-      type(point_geometry_t), intent(in) :: geometry
+      type(point_geometry_t), intent(in) :: geometry !< of the element
 
       takes_means = geometry%averages .or. has_mean_strains(geometry)
    end function takes_means
@@ -335,11 +335,11 @@ contains
 
    !> u1/x1 at a point of an axisymmetric element.
    pure real(wp) function hoop_strain(rule, geometry, k, way, u)
-      type(point_rule_t), intent(in) :: rule
-      type(point_geometry_t), intent(in) :: geometry
-      integer(ip), intent(in) :: k
-      real(wp), intent(in) :: way(2, MOST_NODES) !< displacements less those of the first node [L]
-      real(wp), intent(in) :: u                  !< the first node's, along the radius [L]
+      type(point_rule_t), intent(in) :: rule         !< that of the element's shape
+      type(point_geometry_t), intent(in) :: geometry !< of the axisymmetric element by the rule
+      integer(ip), intent(in) :: k                   !< point, 1 .. rule%n
+      real(wp), intent(in) :: way(2, MOST_NODES)     !< displacements less those of the first node [L]
+      real(wp), intent(in) :: u                      !< the first node's, along the radius [L]
 
       associate (n => geometry%shape)
          if (IS_REDUCED(geometry%state)) then

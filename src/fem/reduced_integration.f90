@@ -25,7 +25,7 @@ contains
    !> K_ab = shape(a) shape(b) amount for the 2 x 2 blocks of nodes a, b.
    pure subroutine hourglass_stiffness(x, section, state, shape, amount)
       real(wp), intent(in) :: x(2, 4)              !< less those of the first node [L]
-      type(elastic_t), intent(in) :: section
+      type(elastic_t), intent(in) :: section       !< elastic constants and thickness
       integer(ip), intent(in) :: state             !< place in STATES
       real(wp), intent(out) :: shape(4)            !< the hourglass less what of it is a linear field: q = sum of shape u
       real(wp), intent(out) :: amount(2, 2)        !< [F/L]
@@ -47,8 +47,7 @@ contains
    end subroutine hourglass_stiffness
 
    !> The same along the axes of the element where they are not those of the material: stresses s11 = h,1 q1/c11, s22 = h,2 q2/c22
-   !> alone
-   !> have the energy h11 q1^2/c11 + 2 h12 q1 q2 c12/(c11 c22) + h22 q2^2/c22, with the compliance along those axes.
+   !> alone have the energy h11 q1^2/c11 + 2 h12 q1 q2 c12/(c11 c22) + h22 q2^2/c22, with the compliance along those axes.
    pure function orthotropic_amount(h, c, axes) result(amount)
       real(wp), intent(in) :: h(2, 2)              !< integrals of h,i h,j along the axes
       real(wp), intent(in) :: c(COMPONENTS, COMPONENTS) !< compliance along x1, x2 [L^2/F]
@@ -69,8 +68,8 @@ contains
 
    !> (h - (h.x1) b1 - (h.x2) b2)/4, b the gradients in the middle.
    pure subroutine hourglass_amplitude(x, shape)
-      real(wp), intent(in) :: x(2, 4)
-      real(wp), intent(out) :: shape(4)
+      real(wp), intent(in) :: x(2, 4)   !< coordinates [L]; the origin does not matter
+      real(wp), intent(out) :: shape(4) !< q = sum of shape u
       real(wp) :: d(2), e(2), b(2, 4), of_x(2)
 
       d = x(:, 3) - x(:, 1)
@@ -86,7 +85,7 @@ contains
    !> Orthogonal axes that turn with the element and do not depend on which node is the first: as far from the direction of xi on
    !> one side as from that of eta on the other.
    pure function element_axes(x) result(axes)
-      real(wp), intent(in) :: x(2, 4)
+      real(wp), intent(in) :: x(2, 4)              !< coordinates [L]; the origin does not matter
       real(wp) :: axes(2, 2)                       !< (component, axis)
       real(wp) :: along_xi(2), along_eta(2)
 
@@ -122,7 +121,7 @@ contains
    !> integration are what they are there, constant (one point) or linear along xi and eta (four).
    pure subroutine spread_gradients(n, n_nodes, x, gradient)
       integer(ip), intent(in) :: n                 !< points: 1, 4 or 9
-      integer(ip), intent(in) :: n_nodes
+      integer(ip), intent(in) :: n_nodes           !< of the element: 4 or 8
       real(wp), intent(in) :: x(2, MOST_NODES)     !< less those of the first node [L]
       real(wp), intent(inout) :: gradient(:, :, :) !< (points, 2, nodes) [1/L]
       real(wp) :: own(2, n_nodes, 4), slopes(n_nodes, 2), j(2, 2), xi(2), weight, share
@@ -148,7 +147,7 @@ contains
    !> The same of the shape functions: what strains of the temperature are compared with strains of displacements.
    pure subroutine spread_values(n, n_nodes, value)
       integer(ip), intent(in) :: n                 !< points: 1, 4 or 9
-      integer(ip), intent(in) :: n_nodes
+      integer(ip), intent(in) :: n_nodes           !< of the element: 4 or 8
       real(wp), intent(inout) :: value(:, :)       !< (points, nodes); the first n and n_nodes are set
       real(wp) :: own(n_nodes), xi(2), weight
       integer(ip) :: i, k
@@ -165,7 +164,7 @@ contains
 
    !> The value at point i of n of the function that is 1 at point k of m and 0 at the others.
    pure real(wp) function share_of_point(m, k, n, i) result(share)
-      integer(ip), intent(in) :: m, k, n, i
+      integer(ip), intent(in) :: m, k, n, i !< points of the stiffness, 1 or 4, which; points of the rule, which
       real(wp) :: here(2), own(2), weight
 
       share = 1.0_wp

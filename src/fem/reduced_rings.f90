@@ -35,7 +35,7 @@ contains
    !> Stiffness [F/L] of a ring of four nodes, of the full circle.
    pure subroutine reduced_ring_stiffness(x, section, state, k, radius)
       real(wp), intent(in) :: x(:, :)              !< coordinates [L], (2, 4)
-      type(elastic_t), intent(in) :: section
+      type(elastic_t), intent(in) :: section       !< elastic constants and thickness
       integer(ip), intent(in) :: state             !< place in STATES
       real(wp), intent(out) :: k(:, :)             !< (8, 8)
       real(wp), intent(in), optional :: radius     !< of the origin of x [L]; default 0
@@ -156,7 +156,7 @@ contains
       integer(ip), intent(in) :: n_points          !< 1, 4 or 9
       real(wp), intent(in) :: x(:, :)              !< of the nodes, less the first [L]
       real(wp), intent(in) :: radius               !< of the first node [L]
-      integer(ip), intent(in) :: state
+      integer(ip), intent(in) :: state             !< place in STATES
       real(wp), intent(inout) :: gradient(:, :, :) !< (points, 2, nodes) [1/L]
       real(wp), intent(inout) :: hoop(:, :)        !< (points, nodes) [1/L]
       type(strain_rows_t) :: rows

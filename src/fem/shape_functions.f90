@@ -103,8 +103,8 @@ contains
 
    !> Derivatives of the shape functions with respect to xi (column 1) and eta (column 2).
    pure function shape_gradients(n_nodes, xi) result(dn)
-      integer(ip), intent(in) :: n_nodes
-      real(wp), intent(in) :: xi(2)
+      integer(ip), intent(in) :: n_nodes !< of the element: place in SHAPES
+      real(wp), intent(in) :: xi(2)      !< in [-1,1]^2, or in the triangle
       real(wp) :: dn(n_nodes, 2)
       real(wp) :: a(3), b(3), da(3), db(3)
       integer(ip) :: i, grid(2)
@@ -203,7 +203,7 @@ contains
    !> Values on a face at t in [-1,1]; nodes in the order of face_nodes: first, last, middle.
    pure function face_shape_values(n_face_nodes, t) result(n)
       integer(ip), intent(in) :: n_face_nodes      !< 2 or 3
-      real(wp), intent(in) :: t
+      real(wp), intent(in) :: t                    !< in [-1,1] along the face
       real(wp) :: n(n_face_nodes)
       real(wp) :: v(3)
 
@@ -218,8 +218,8 @@ contains
 
    !> Derivatives of face_shape_values.
    pure function face_shape_slopes(n_face_nodes, t) result(n)
-      integer(ip), intent(in) :: n_face_nodes
-      real(wp), intent(in) :: t
+      integer(ip), intent(in) :: n_face_nodes !< 2 or 3
+      real(wp), intent(in) :: t               !< in [-1,1] along the face
       real(wp) :: n(n_face_nodes)
       real(wp) :: v(3)
 
@@ -232,10 +232,10 @@ contains
       end if
    end function face_shape_slopes
 
-   !> Points and weights of the Gauss rule with 1, 2 or 3 points on [-1,1].
+   !> Points and weights of the Gauss rule with 1 to 5 points on [-1,1].
    pure subroutine gauss_rule(n, points, weights)
-      integer(ip), intent(in) :: n                 !< 1 .. 5
-      real(wp), intent(out) :: points(n), weights(n)
+      integer(ip), intent(in) :: n                   !< 1 .. 5
+      real(wp), intent(out) :: points(n), weights(n) !< ascending in [-1,1]; their sum is 2
       real(wp) :: near, far
 
       if (n == 1) then
@@ -262,9 +262,9 @@ contains
 
    !> The k-th Gauss point of an element's stiffness.
    pure subroutine gauss_point(n_nodes, k, xi, weight)
-      integer(ip), intent(in) :: n_nodes
+      integer(ip), intent(in) :: n_nodes           !< of the element: place in SHAPES
       integer(ip), intent(in) :: k                 !< 1 .. n_points of its shape
-      real(wp), intent(out) :: xi(2), weight
+      real(wp), intent(out) :: xi(2), weight       !< place in the parent square or triangle; its weight
 
       call rule_point(n_nodes, SHAPES(n_nodes)%n_points, k, xi, weight)
    end subroutine gauss_point
@@ -275,7 +275,7 @@ contains
       integer(ip), intent(in) :: n_nodes           !< place in SHAPES
       integer(ip), intent(in) :: n                 !< 1, 4 or 9; 1, 3, 6, 16 or 25
       integer(ip), intent(in) :: k                 !< 1 .. n
-      real(wp), intent(out) :: xi(2), weight
+      real(wp), intent(out) :: xi(2), weight       !< place in the parent square or triangle; its weight
 
       if (SHAPES(n_nodes)%n_corners == 3) then
          call triangle_point(n, k, xi, weight)

@@ -37,13 +37,13 @@ module atrito_stress_recovery
 
    !> What a recovery works with.
    type :: recovery_t
-      type(point_rule_t) :: best(MOST_NODES)       !< of each shape: the superconvergent points
-      type(point_rule_t) :: all(MOST_NODES)        !< and the Gauss points of the stiffness
-      type(patches_t) :: patches
-      real(wp), allocatable :: x(:, :, :)          !< best points less the element's first node [L], (2, points, n_elements)
-      real(wp), allocatable :: s(:, :, :)          !< stresses there [F/L^2], (COMPONENTS, points, n_elements)
+      type(point_rule_t) :: best(MOST_NODES)           !< of each shape: the superconvergent points
+      type(point_rule_t) :: all(MOST_NODES)            !< and the Gauss points of the stiffness
+      type(patches_t) :: patches                       !< zones, and the elements round each place
+      real(wp), allocatable :: x(:, :, :)              !< best points less the element's first node [L], (2, points, n_elements)
+      real(wp), allocatable :: s(:, :, :)              !< stresses there [F/L^2], (COMPONENTS, points, n_elements)
       type(polynomial_t), allocatable :: polynomial(:) !< (places) of the patches that lend to other nodes
-      logical :: of_hoop = .false.                 !< s is s33 of axisymmetric elements and twice 0: a recovery of its own
+      logical :: of_hoop = .false.                     !< s is s33 of axisymmetric elements and twice 0: a recovery of its own
    end type recovery_t
 
    !> How good the patch of a corner is for a node of the element: 1 the node's own, or that of its edge or its element; then the
@@ -60,9 +60,9 @@ contains
 
    !> Recovers the stresses of a displacement field.
    subroutine recover_stress_field(fem, u, field)
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem               !< mesh, sections and temperatures are read
       real(wp), intent(in) :: u(:, :)              !< (2, n_nodes) [L]
-      type(stress_field_t), intent(out) :: field
+      type(stress_field_t), intent(out) :: field   !< at all places
       type(recovery_t) :: work
       real(wp), allocatable :: hoop(:, :)
       integer(ip) :: k
@@ -409,8 +409,8 @@ contains
    !> s11 s22 s33 s12 mises at the nodes: the mean of the zones that meet there, and Mises' stress of that mean. 0 at nodes in no
    !> element.
    subroutine nodal_stresses(fem, field, stress)
-      type(fem_t), intent(in) :: fem
-      type(stress_field_t), intent(in) :: field
+      type(fem_t), intent(in) :: fem                      !< mesh, sections and temperatures are read
+      type(stress_field_t), intent(in) :: field           !< recovered from the displacements
       real(wp), allocatable, intent(out) :: stress(:, :)  !< (5, n_nodes) [F/L^2]
       integer(ip), allocatable :: zones(:)
       integer(ip) :: i, node

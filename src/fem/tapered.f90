@@ -17,7 +17,7 @@ contains
    pure subroutine tapered_means(x, thickness, mean, volume)
       real(wp), intent(in) :: x(:, :)              !< (2, n) less those of the first node [L]
       real(wp), intent(in) :: thickness(:)         !< of the nodes [L]
-      real(wp), intent(out) :: mean(2, size(x, 2))
+      real(wp), intent(out) :: mean(2, size(x, 2)) !< of the gradients [1/L]
       real(wp), intent(out) :: volume              !< [L^3]
       real(wp) :: slopes(size(x, 2), 2), j(2, 2), xi(2), weight, depth
       integer(ip) :: point, n
@@ -39,8 +39,8 @@ contains
 
    !> Whether the nodes of an element have the thickness of those of another one, within rounding.
    pure logical function has_thickness(mesh, element, thickness) result(alike)
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: element
+      type(mesh_t), intent(in) :: mesh              !< with thicknesses of its nodes
+      integer(ip), intent(in) :: element            !< place in the mesh
       real(wp), intent(in) :: thickness(MOST_NODES) !< of the other one [L]
       integer(ip) :: n
 

@@ -21,7 +21,7 @@ contains
 
    !> Adds the nodal forces of the thermal strains of all elements; nothing where there are no temperatures.
    pure subroutine add_thermal_loads(fem, f)
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem               !< mesh, sections and temperatures are read
       real(wp), intent(inout) :: f(:, :)           !< (2, n_nodes) [F]
       real(wp) :: blocked
 
@@ -30,8 +30,8 @@ contains
 
    !> The same of some elements.
    pure subroutine add_thermal_of(fem, elements, f)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: elements(:)
+      type(fem_t), intent(in) :: fem               !< mesh, sections and temperatures are read
+      integer(ip), intent(in) :: elements(:)       !< places in the mesh
       real(wp), intent(inout) :: f(:, :)           !< (2, n_nodes) [F]
       type(point_rule_t) :: rules(MOST_NODES, 2)
       type(point_geometry_t) :: geometry
@@ -48,7 +48,7 @@ contains
 
    !> The energy of the stresses from that of the displacements alone; unchanged where there are no temperatures.
    pure real(wp) function elastic_energy(fem, u, of_displacements) result(energy)
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem               !< mesh, sections and temperatures are read
       real(wp), intent(in) :: u(:, :)              !< (2, n_nodes) [L]
       real(wp), intent(in) :: of_displacements     !< u'K u/2 [F L]
       real(wp), parameter :: ROUND_OFF = 1.0e-13_wp
@@ -66,7 +66,7 @@ contains
 
    !> The largest strain of the temperature of any node in any section.
    pure real(wp) function largest_thermal_strain(fem) result(strain)
-      type(fem_t), intent(in) :: fem
+      type(fem_t), intent(in) :: fem !< sections and temperatures are read
 
       strain = 0.0_wp
       if (allocated(fem%heating)) strain = maxval(abs(fem%sections%expansion))*maxval(abs(fem%heating))

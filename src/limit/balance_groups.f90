@@ -12,7 +12,7 @@ module atrito_balance_groups
    public :: balance_groups_t, find_groups
 
    type :: balance_groups_t
-      integer(ip) :: n = 0
+      integer(ip) :: n = 0                       !< groups
       integer(ip), allocatable :: of_motion(:)   !< (k) 1 .. n
       integer(ip), allocatable :: of_point(:)    !< (line%n) 0: no motion, and none of what it is averaged with
    end type balance_groups_t
@@ -21,9 +21,9 @@ contains
 
    !> Groups in the order of their first motions.
    pure subroutine find_groups(rows, line, groups)
-      type(motion_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      type(balance_groups_t), intent(out) :: groups
+      type(motion_rows_t), intent(in) :: rows       !< G, and the body of each motion
+      type(contact_line_t), intent(in) :: line      !< laws and averages of its points are read
+      type(balance_groups_t), intent(out) :: groups !< (k) and (line%n), numbered from 1
       integer(ip) :: parent(rows%n_columns + line%n), number(rows%n_columns + line%n), i, j, e
 
       parent = [(i, i=1, rows%n_columns + line%n)]

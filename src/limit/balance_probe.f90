@@ -32,10 +32,10 @@ contains
    !> Asks the certificate at all times of the history that matter. status: STATUS_DECK, which is told by a message, where the
    !> averages take more memory than there is.
    subroutine probe_balance(model, answer, excess, status, collapse)
-      type(model_t), intent(in), target :: model
+      type(model_t), intent(in), target :: model    !< as read, refined if that was asked
       integer, intent(out) :: answer                !< STANDS: forces balance the loads at all times; FALLS at some; or UNDECIDED
       real(wp), intent(out) :: excess               !< FALLS: the largest work that contact cannot take, over the sum of the loads
-      type(status_t), intent(out) :: status
+      type(status_t), intent(out) :: status         !< STATUS_DECK where averages need too much memory
       type(collapse_t), intent(out), optional :: collapse !< FALLS: the motion, at the first such time
       type(scene_data_t) :: data
       real(wp), allocatable :: times(:)
@@ -114,9 +114,9 @@ contains
    !> Where between two models their balance ends, as a share of the way: known where they differ in the sizes of their loads alone
    !> and have a single increment.
    subroutine predict_share(stands, falls, share, found)
-      type(model_t), intent(in), target :: stands, falls
-      real(wp), intent(out) :: share
-      logical, intent(out) :: found
+      type(model_t), intent(in), target :: stands, falls !< one whose loads can be balanced, one whose cannot
+      real(wp), intent(out) :: share                     !< 0 to 1, of the way from the first to the second
+      logical, intent(out) :: found                      !< the question can be asked, and was answered
       type(scene_data_t) :: data(2)
       type(motion_rows_t) :: motions(2)
       type(solve_options_t) :: asked
@@ -145,8 +145,8 @@ contains
    !> Whether loads of a single increment that can be balanced can be so without the points that gaps keep apart: the balance knows
    !> no gaps. Not allocated: they can.
    subroutine describe_gaps(model, text)
-      type(model_t), intent(in), target :: model
-      character(len=:), allocatable, intent(out) :: text
+      type(model_t), intent(in), target :: model         !< as read, refined if that was asked
+      character(len=:), allocatable, intent(out) :: text !< what to tell of the gaps, without a stop
       type(scene_data_t) :: data
       type(motion_rows_t) :: motions
       type(certificate_t) :: certificate

@@ -30,7 +30,7 @@ module atrito_balance_program
    public :: balance_program_t, build_balance_program, forces_of_columns
 
    type :: balance_program_t
-      type(linear_program_t) :: program
+      type(linear_program_t) :: program          !< rows and columns scaled as said above
       integer(ip) :: n_motions = 0               !< rows that are equations of balance: the first ones
       integer(ip), allocatable :: motion(:)      !< (n_motions) of each
       real(wp), allocatable :: size(:)           !< (n_motions) S [F]
@@ -41,10 +41,10 @@ module atrito_balance_program
 
    !> What is added to while the programme grows, column by column.
    type :: columns_t
-      integer(ip) :: n = 0
-      integer(ip) :: n_entries = 0
-      integer(ip), allocatable :: first(:), row(:), force(:, :)
-      real(wp), allocatable :: entry(:), cost(:), share(:, :)
+      integer(ip) :: n = 0                                      !< columns so far
+      integer(ip) :: n_entries = 0                              !< entries so far
+      integer(ip), allocatable :: first(:), row(:), force(:, :) !< by columns as in linear_program_t; (2, columns) as force
+      real(wp), allocatable :: entry(:), cost(:), share(:, :)   !< of each entry; (columns); (2, columns) as share
    end type columns_t
 
    !> How the points take part.
@@ -60,14 +60,14 @@ contains
 
    !> The programme of the motions with a row, and of the points that touch them.
    subroutine build_balance_program(rows, line, wanted, row_of_motion, scale, least_largest, balance)
-      type(motion_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      logical, intent(in) :: wanted(:)           !< (line%n) points that take part
-      integer(ip), intent(in) :: row_of_motion(:) !< (k) 1, 2, ... in the order of the motions; 0: takes no part
-      real(wp), intent(in) :: scale(:)           !< (k) S [F], > 0 where there is a row
-      logical, intent(in) :: least_largest
-      type(balance_program_t), intent(out) :: balance
-      integer(ip), parameter :: SOME = 64_ip     !< columns and entries to begin with
+      type(motion_rows_t), intent(in) :: rows         !< G, and the work of the loads on each motion
+      type(contact_line_t), intent(in) :: line        !< points, weights, laws and averages are read
+      logical, intent(in) :: wanted(:)                !< (line%n) points that take part
+      integer(ip), intent(in) :: row_of_motion(:)     !< (k) 1, 2, ... in the order of the motions; 0: takes no part
+      real(wp), intent(in) :: scale(:)                !< (k) S [F], > 0 where there is a row
+      logical, intent(in) :: least_largest            !< the largest y_i is made least, not their sum
+      type(balance_program_t), intent(out) :: balance !< the programme, and what its rows and columns mean
+      integer(ip), parameter :: SOME = 64_ip          !< columns and entries to begin with
       type(point_kinds_t) :: kinds
       type(columns_t) :: columns
       integer(ip) :: i
@@ -382,9 +382,9 @@ contains
 
    !> Adds the forces of the columns to q.
    pure subroutine forces_of_columns(balance, x, q)
-      type(balance_program_t), intent(in) :: balance
-      real(wp), intent(in) :: x(:)               !< (columns)
-      real(wp), intent(inout) :: q(:)            !< (m) [F]
+      type(balance_program_t), intent(in) :: balance !< built by build_balance_program
+      real(wp), intent(in) :: x(:)                   !< (columns)
+      real(wp), intent(inout) :: q(:)                !< (m) [F]
       integer(ip) :: j, s
 
       do j = 1, balance%n_forces

@@ -37,7 +37,7 @@ module atrito_certificate
    integer, parameter :: BALANCE_UNDECIDED = 0, BALANCE_POSSIBLE = 1, BALANCE_IMPOSSIBLE = 2
 
    type :: certificate_t
-      integer :: verdict = BALANCE_UNDECIDED
+      integer :: verdict = BALANCE_UNDECIDED     !< BALANCE_*
       logical :: solver_missing = .false.        !< undecided because there is no solver of linear programmes
       real(wp), allocatable :: motion(:)         !< (k) IMPOSSIBLE: v, its fastest amplitude one [L]
       real(wp) :: excess = 0.0_wp                !< IMPOSSIBLE: what the loads work on v beyond what the contact can take [F L]
@@ -58,10 +58,10 @@ contains
 
    !> Judges all groups. IMPOSSIBLE: one of them has a motion that proves it, that of the greatest excess over its loads is given.
    subroutine prove_balance(rows, line, certificate, counts)
-      type(motion_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      type(certificate_t), intent(out) :: certificate
-      logical, intent(in), optional :: counts(:) !< (line%n) points that may bear forces; left out: all
+      type(motion_rows_t), intent(in) :: rows         !< G, and the work of the loads on each motion
+      type(contact_line_t), intent(in) :: line        !< points, weights, laws and averages are read
+      type(certificate_t), intent(out) :: certificate !< the verdict, with the forces or the motion that prove it
+      logical, intent(in), optional :: counts(:)      !< (line%n) points that may bear forces; left out: all
       type(certificate_t) :: own
       type(balance_groups_t) :: groups
       real(wp) :: worst, part
@@ -181,11 +181,11 @@ contains
    !> How far loads can go from those of `rows` towards others: the largest share s of the way with G'q = h + s (h' - h) for some
    !> forces that the contact can take. One linear programme, that of the balance with s as one more column and without remainders.
    subroutine find_largest_share(rows, line, other, share, found)
-      type(motion_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
+      type(motion_rows_t), intent(in) :: rows    !< G and h
+      type(contact_line_t), intent(in) :: line   !< points, weights, laws and averages are read
       type(motion_rows_t), intent(in) :: other   !< h'
       real(wp), intent(out) :: share             !< 0 to 1
-      logical, intent(out) :: found
+      logical, intent(out) :: found              !< the programme has been solved
       type(balance_program_t) :: balance
       type(linear_solution_t) :: solution
       real(wp) :: scale(rows%n_columns)
@@ -275,12 +275,12 @@ contains
    !> How much more the loads work on a motion than any admissible forces can take. proven: by far more than round-off, and than all
    !> forces could take that are MANY_TIMES as large as those on the bodies, at the points where round-off lets v resist them.
    subroutine motion_excess(rows, line, body_force, v, excess, proven)
-      type(motion_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
+      type(motion_rows_t), intent(in) :: rows    !< G, and the work of the loads on each motion
+      type(contact_line_t), intent(in) :: line   !< points, weights, laws and averages are read
       real(wp), intent(in) :: body_force(:)      !< (k) size of the forces on the body of each motion [F]
       real(wp), intent(in) :: v(:)               !< (k) [L]
       real(wp), intent(out) :: excess            !< [F L]
-      logical, intent(out) :: proven
+      logical, intent(out) :: proven             !< no forces can balance the loads
       real(wp) :: rate(rows%n), terms(rows%n), by_friction(line%n), known_work, work_size, taken, resisted
       integer(ip) :: i
 
@@ -305,7 +305,7 @@ contains
 
    !> What a unit of each pressure force takes by friction, at its own point and where it is averaged; and what known ones take.
    pure subroutine friction_work(line, rate, by_friction, known_work)
-      type(contact_line_t), intent(in) :: line
+      type(contact_line_t), intent(in) :: line   !< points, weights, laws and averages are read
       real(wp), intent(in) :: rate(:)            !< (m) G v [L]
       real(wp), intent(out) :: by_friction(:)    !< (n) [L]
       real(wp), intent(out) :: known_work        !< [F L]
@@ -330,8 +330,8 @@ contains
 
    !> Whether forces are admissible and leave nothing on the motions of some bodies, but for round-off of what is added up.
    function forces_balance(rows, line, q, member) result(balanced)
-      type(motion_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
+      type(motion_rows_t), intent(in) :: rows    !< G, and the work of the loads on each motion
+      type(contact_line_t), intent(in) :: line   !< points, weights, laws and averages are read
       real(wp), intent(in) :: q(:)               !< (m) [F]
       logical, intent(in) :: member(:)           !< (k)
       logical :: balanced

@@ -22,12 +22,12 @@ contains
 
    !> The whole sentence.
    function free_motion_text(fem, held, rows, line, pairs, mechanism) result(text)
-      type(fem_t), intent(in) :: fem
-      logical, intent(in) :: held(:, :)        !< (2, n_nodes)
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      type(pair_scene_t), intent(in) :: pairs(:)
-      type(mechanism_t), intent(in) :: mechanism
+      type(fem_t), intent(in) :: fem             !< bodies with their names, and the mesh
+      logical, intent(in) :: held(:, :)          !< (2, n_nodes)
+      type(contact_rows_t), intent(in) :: rows   !< the nodes of its rows are read
+      type(contact_line_t), intent(in) :: line   !< weights, laws and pairs of the points
+      type(pair_scene_t), intent(in) :: pairs(:) !< names of slaves and masters
+      type(mechanism_t), intent(in) :: mechanism !< of describe_motion
       character(len=:), allocatable :: text
 
       associate (bodies => mechanism%bodies)

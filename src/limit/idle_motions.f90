@@ -38,11 +38,11 @@ contains
    !> is none; groups of many motions have what their form of the contact system found. Where a motion were idle but for what the
    !> digits of the deck make of the loads, that is taken out of data%f, and the increment is to be solved again.
    subroutine settle_idle_motions(data, u, before, solution, again)
-      type(scene_data_t), intent(inout) :: data
-      real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) without rigid motions [L]
-      real(wp), pointer, intent(in) :: before(:, :) !< (2, n_nodes) of the increment before [L]; null: there is none
-      type(contact_solution_t), intent(inout) :: solution
-      logical, intent(inout) :: again               !< in: whether loads may change; out: they have
+      type(scene_data_t), intent(inout) :: data           !< of the increment; its loads may change
+      real(wp), intent(in) :: u(:, :)                     !< (2, n_nodes) without rigid motions [L]
+      real(wp), pointer, intent(in) :: before(:, :)       !< (2, n_nodes) of the increment before [L]; null: there is none
+      type(contact_solution_t), intent(inout) :: solution !< motions, states of rows and small forces may change
+      logical, intent(inout) :: again                     !< in: whether loads may change; out: they have
       type(motion_rows_t) :: rows
       logical :: holds(size(solution%state%state))  ! rows that hold motions
       real(wp) :: tau(data%line%n)                  ! friction bounds at the points [F/L^2]
@@ -134,9 +134,9 @@ contains
    !> Where no solution was found since a motion went on that the loads drive: takes its work out of the loads, where it is no more
    !> than what the digits of the deck make of them; with friction of the loads alone, since forces that wedge may be of any size.
    subroutine stop_slow_motion(data, solution, has_changed)
-      type(scene_data_t), intent(inout) :: data
-      type(contact_solution_t), intent(in) :: solution
-      logical, intent(out) :: has_changed
+      type(scene_data_t), intent(inout) :: data        !< of the increment; its loads may change
+      type(contact_solution_t), intent(in) :: solution !< the iterate that was left, with the motion that went on
+      logical, intent(out) :: has_changed              !< the loads are others now: solve again
       type(motion_rows_t) :: rows
 
       has_changed = .false.

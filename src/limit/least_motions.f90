@@ -27,11 +27,11 @@ contains
    !> Of the displacements since the increment before, the sums over the nodes of each body with its motions: Z'(u + Z a - u') and
    !> Z'Z.
    pure subroutine measure_motions(fem, u, before, a, off, metric)
-      type(fem_t), intent(in) :: fem
-      real(wp), intent(in) :: u(:, :)
-      real(wp), pointer, intent(in) :: before(:, :)
-      real(wp), intent(in) :: a(:)                  !< (k)
-      real(wp), allocatable, intent(out) :: off(:)  !< (k) [L]
+      type(fem_t), intent(in) :: fem                        !< bodies with their motions
+      real(wp), intent(in) :: u(:, :)                       !< (2, n_nodes) without rigid motions [L]
+      real(wp), pointer, intent(in) :: before(:, :)         !< (2, n_nodes) of the increment before [L]; null: zeros
+      real(wp), intent(in) :: a(:)                          !< (k)
+      real(wp), allocatable, intent(out) :: off(:)          !< (k) [L]
       real(wp), allocatable, intent(out) :: metric(:, :, :) !< (3, 3, bodies)
       real(wp) :: z(2, 3), moved(2)
       integer(ip) :: first(fem%bodies%n + 1), b, i
@@ -64,14 +64,14 @@ contains
    !> motions with W'M W = 1, and of s over these the sum is |s + W'off|^2 but for a constant: the least is at s = -W'off, and the
    !> least under conditions is the point nearest to that one (within_conditions), in the plain sense of the distance.
    subroutine take_least(fem, rows, idle, off, metric, largest, solution, way)
-      type(fem_t), intent(in) :: fem
-      type(motion_rows_t), intent(in) :: rows
-      real(wp), intent(in) :: idle(:, :)            !< (k, motions)
-      real(wp), intent(in) :: off(:)                !< (k) [L]
-      real(wp), intent(in) :: metric(:, :, :)
-      real(wp), intent(in) :: largest               !< displacement [L]
-      type(contact_solution_t), intent(inout) :: solution
-      real(wp), intent(out) :: way(:)               !< (k) that the bodies went [L]; 0 where they did not
+      type(fem_t), intent(in) :: fem                      !< bodies with their motions
+      type(motion_rows_t), intent(in) :: rows             !< G
+      real(wp), intent(in) :: idle(:, :)                  !< (k, motions)
+      real(wp), intent(in) :: off(:)                      !< (k) [L]
+      real(wp), intent(in) :: metric(:, :, :)             !< (3, 3, bodies) of measure_motions
+      real(wp), intent(in) :: largest                     !< displacement [L]
+      type(contact_solution_t), intent(inout) :: solution !< its motions change, and `r` of rows at a bound
+      real(wp), intent(out) :: way(:)                     !< (k) that the bodies went [L]; 0 where they did not
       real(wp) :: basis(size(idle, 1), size(idle, 2)), gram(size(idle, 2), size(idle, 2)), values(size(idle, 2))
       real(wp) :: rate(rows%n)
       integer(ip) :: j, info

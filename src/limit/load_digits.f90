@@ -32,7 +32,7 @@ contains
 
    !> Of each unknown force, the part of the largest one that the digits may make; 0: none, as of joints.
    function place_doubt(data) result(doubt)
-      type(scene_data_t), intent(in) :: data
+      type(scene_data_t), intent(in) :: data !< mesh, contact line and reach of its points are read
       real(wp) :: doubt(size(data%line%point)), grain
       integer(ip) :: i
 
@@ -62,8 +62,8 @@ contains
 
    !> Whether the loads work no more on a motion than the digits make.
    logical function is_within_digits(data, rows, v, q)
-      type(scene_data_t), intent(in) :: data
-      type(motion_rows_t), intent(in) :: rows
+      type(scene_data_t), intent(in) :: data        !< bodies, loads, normals and reach of the points
+      type(motion_rows_t), intent(in) :: rows       !< G, and the work of the loads on each motion
       real(wp), intent(in) :: v(:)                  !< (k) its amplitudes
       real(wp), intent(in) :: q(:)                  !< (m) forces of the rows, 0: of those that do not hold [F]
       real(wp) :: allowed, most, forces, turn, along, sizes(rows%n_columns)
@@ -127,7 +127,7 @@ contains
    !> Takes work h on the motions of the bodies out of the loads: of all forces with that work the least, Z (Z'Z)^-1 h. The loads of
    !> the increment are no sum of the bases of its step any more; the next increment has its own.
    subroutine take_out(data, work)
-      type(scene_data_t), intent(inout) :: data
+      type(scene_data_t), intent(inout) :: data     !< of the increment; its loads change
       real(wp), intent(in) :: work(:)               !< (k) [F]
       real(wp) :: z(2, 3), metric(3, 3), force(3)
       real(wp), allocatable :: small(:, :), own(:)  ! of as many motions as the body has

@@ -41,12 +41,12 @@ contains
    !> What the motion of a certificate is: which bodies move and how, what slides and opens, and what the loads, friction and gaps
    !> do on it. Lifts that the loads do not drive are taken out of it first.
    subroutine describe_motion(fem, rows, line, motions, certificate, mechanism, work_at_end)
-      type(fem_t), intent(in) :: fem
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      type(motion_rows_t), intent(in) :: motions
-      type(certificate_t), intent(in) :: certificate
-      type(mechanism_t), intent(out) :: mechanism
+      type(fem_t), intent(in) :: fem                   !< bodies with their motions, and the mesh
+      type(contact_rows_t), intent(in) :: rows         !< directions and nodes of its rows are read
+      type(contact_line_t), intent(in) :: line         !< weights, laws and pairs of the points
+      type(motion_rows_t), intent(in) :: motions       !< G, and the work of the loads on each motion
+      type(certificate_t), intent(in) :: certificate   !< BALANCE_IMPOSSIBLE, with its motion
+      type(mechanism_t), intent(out) :: mechanism      !< what is told of it
       real(wp), intent(in), optional :: work_at_end(:) !< (k) of the loads at the end of the step; left out: they are these
       real(wp) :: v(motions%n_columns), by_friction(line%n), rate(motions%n), known_work
       logical :: closed(line%n)

@@ -27,8 +27,8 @@ contains
 
    !> Motions whose scale is zero stay as they are.
    subroutine polish_motion(rows, line, scale, v)
-      type(motion_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
+      type(motion_rows_t), intent(in) :: rows    !< G
+      type(contact_line_t), intent(in) :: line   !< weights, laws and averages of its points
       real(wp), intent(in) :: scale(:)           !< (k) size of the forces on each motion [F]; 0: it takes no part
       real(wp), intent(inout) :: v(:)            !< (k) [L]
       real(wp), allocatable :: conditions(:, :), change(:)

@@ -41,14 +41,14 @@ module atrito_stability_search
 
    !> A value that was looked at.
    type :: tried_t
-      real(wp) :: x = 0.0_wp
-      integer :: balance = UNKNOWN
+      real(wp) :: x = 0.0_wp                        !< the value of the parameter
+      integer :: balance = UNKNOWN                  !< STANDS, FALLS or UNDECIDED; UNKNOWN: not asked yet
       integer :: solution = UNKNOWN                 !< STANDS or UNDECIDED; what falls is not solved
       real(wp) :: excess = 0.0_wp                   !< of the balance, where it falls: by which share the loads are too much
    end type tried_t
 
    type :: search_t
-      real(wp) :: ends(2) = 0.0_wp
+      real(wp) :: ends(2) = 0.0_wp                  !< between which the limit is sought
       real(wp) :: tolerance = 0.0_wp                !< relative, of the interval in the end
       integer :: found = 0                          !< once done: FOUND_LIMIT, ...
       type(tried_t), allocatable :: tried(:)        !< in the order in which they were looked at
@@ -79,7 +79,7 @@ contains
    pure subroutine begin_search(first, second, tolerance, search)
       real(wp), intent(in) :: first, second         !< different
       real(wp), intent(in) :: tolerance             !< > 0
-      type(search_t), intent(out) :: search
+      type(search_t), intent(out) :: search         !< nothing has been looked at
 
       search%ends = [first, second]
       search%tolerance = tolerance
@@ -88,9 +88,9 @@ contains
 
    !> What to ask next, and of which value. STEP_DONE: nothing, search%found tells what came of it.
    pure subroutine next_step(search, x, step)
-      type(search_t), intent(inout) :: search
-      real(wp), intent(out) :: x
-      integer, intent(out) :: step
+      type(search_t), intent(inout) :: search !< strides and `found` may change
+      real(wp), intent(out) :: x              !< the value; of no use where the step is STEP_DONE
+      integer, intent(out) :: step            !< STEP_*
       type(tried_t) :: known
       integer :: standing
 
@@ -299,16 +299,16 @@ contains
 
    !> Where the balance ends by what else is known of the scene; it is asked about, not believed.
    pure subroutine suggest_root(search, x)
-      type(search_t), intent(inout) :: search
-      real(wp), intent(in) :: x
+      type(search_t), intent(inout) :: search !< the root is kept
+      real(wp), intent(in) :: x               !< between the ends
 
       search%root = x
    end subroutine suggest_root
 
    !> What the balance of the loads at a value was found to be.
    pure subroutine record_balance(search, x, answer, excess)
-      type(search_t), intent(inout) :: search
-      real(wp), intent(in) :: x
+      type(search_t), intent(inout) :: search       !< gets the answer
+      real(wp), intent(in) :: x                     !< as next_step gave it
       integer, intent(in) :: answer                 !< STANDS, FALLS or UNDECIDED
       real(wp), intent(in) :: excess                !< > 0 where it falls
       integer :: i
@@ -320,8 +320,8 @@ contains
 
    !> What a solution at a value came to.
    pure subroutine record_solution(search, x, answer)
-      type(search_t), intent(inout) :: search
-      real(wp), intent(in) :: x
+      type(search_t), intent(inout) :: search       !< gets the answer
+      real(wp), intent(in) :: x                     !< as next_step gave it
       integer, intent(in) :: answer                 !< STANDS or UNDECIDED
       integer :: i
 
@@ -332,7 +332,7 @@ contains
 
    !> The value nearest to the limit that has a solution.
    pure real(wp) function standing_value(search) result(x)
-      type(search_t), intent(in) :: search
+      type(search_t), intent(in) :: search !< begun
       real(wp) :: start, fall, at, farthest
       integer :: i
 
@@ -350,7 +350,7 @@ contains
 
    !> The value nearest to it that has none.
    pure real(wp) function falling_value(search) result(x)
-      type(search_t), intent(in) :: search
+      type(search_t), intent(in) :: search !< begun
       real(wp) :: start, fall
       integer :: i
 
@@ -364,7 +364,7 @@ contains
 
    !> The value nearest to that one whose loads can be balanced, solved or not.
    pure real(wp) function balanced_value(search) result(x)
-      type(search_t), intent(in) :: search
+      type(search_t), intent(in) :: search !< begun
       real(wp) :: start
 
       start = start_of(search)
@@ -387,7 +387,7 @@ contains
 
    !> How far apart the two may be in the end.
    pure real(wp) function allowed_width(search)
-      type(search_t), intent(in) :: search
+      type(search_t), intent(in) :: search !< begun
 
       allowed_width = width_of([standing_value(search), falling_value(search)], search)
    end function allowed_width

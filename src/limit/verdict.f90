@@ -25,12 +25,12 @@ contains
    !> Judges a contact line without solution. status: STATUS_SINGULAR with the whole text where no forces that the contact can take
    !> balance the loads. Else it is OK, and the verdict says more.
    subroutine judge_balance(data, f_end, pairs, verdict, again, status)
-      type(scene_data_t), intent(inout) :: data
+      type(scene_data_t), intent(inout) :: data      !< of the increment; its loads change where `again` says so
       real(wp), intent(in) :: f_end(:, :)            !< (2, n_nodes) applied forces at the end of the step [F]
-      type(pair_scene_t), intent(in) :: pairs(:)
+      type(pair_scene_t), intent(in) :: pairs(:)     !< names of slaves and masters
       character(len=:), allocatable, intent(inout) :: verdict !< why there is no solution
       logical, intent(inout) :: again                !< in: whether loads may change; out: they have, a proof hung on their digits
-      type(status_t), intent(out) :: status
+      type(status_t), intent(out) :: status          !< OK, or STATUS_SINGULAR with the whole text
       type(motion_rows_t) :: motions, motions_at_end
       type(certificate_t) :: certificate
       type(mechanism_t) :: mechanism

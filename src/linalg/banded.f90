@@ -58,9 +58,9 @@ contains
 
    !> Room for band, coupling and retained block, all zero.
    subroutine create_banded(self, profile, status)
-      class(banded_t), intent(inout) :: self
-      type(profile_t), intent(in) :: profile
-      type(status_t), intent(out) :: status
+      class(banded_t), intent(inout) :: self !< what it held is given up
+      type(profile_t), intent(in) :: profile !< closed
+      type(status_t), intent(out) :: status  !< STATUS_INTERNAL where the memory does not suffice
       integer(ip) :: n_interior, padding
       integer :: no_memory
 
@@ -88,9 +88,9 @@ contains
    !> Adds an element matrix, its lower triangle: to the band where both equations are interior; to the coupling, K_ic, where the
    !> greater one is retained; to the lower triangle of K_cc where both are.
    subroutine add_to_banded(self, equations, matrix)
-      class(banded_t), intent(inout) :: self
-      integer(ip), intent(in) :: equations(:)
-      real(wp), intent(in) :: matrix(:, :)
+      class(banded_t), intent(inout) :: self  !< created, not yet factored
+      integer(ip), intent(in) :: equations(:) !< equation numbers; 0 = prescribed, skipped
+      real(wp), intent(in) :: matrix(:, :)    !< symmetric, of these equations
       integer(ip) :: a, b, i, j, n_interior
 
       n_interior = self%n - self%n_retained
@@ -115,8 +115,8 @@ contains
    !> L by dpbtrf, whose pivots are then looked through; H and S where there are retained equations that reach the interior. BLAS
    !> and LAPACK raise floating-point exceptions that mean nothing: halting is suspended round them.
    subroutine factor_banded(self, status)
-      class(banded_t), intent(inout) :: self
-      type(status_t), intent(out) :: status
+      class(banded_t), intent(inout) :: self !< matrix assembled; holds the factor on return
+      type(status_t), intent(out) :: status  !< STATUS_SINGULAR where K_ii is singular or indefinite
       type(halting_t) :: halting
       real(wp) :: diagonal(self%n - self%n_retained)
       integer(ip) :: info, rows
@@ -194,8 +194,8 @@ contains
 
    !> Both triangles of S.
    subroutine get_banded_schur(self, schur)
-      class(banded_t), intent(in) :: self
-      real(wp), intent(out) :: schur(:, :)
+      class(banded_t), intent(in) :: self  !< factored
+      real(wp), intent(out) :: schur(:, :) !< (n_retained, n_retained)
       integer(ip) :: j
 
       do j = 1, self%n_retained
@@ -206,8 +206,8 @@ contains
 
    !> f_i <- L^-1 f_i, f_c <- f_c - H' f_i.
    subroutine reduce_banded(self, f)
-      class(banded_t), intent(in) :: self
-      real(wp), intent(inout), contiguous :: f(:, :)
+      class(banded_t), intent(in) :: self            !< factored
+      real(wp), intent(inout), contiguous :: f(:, :) !< (n, loads)
 
       call reduce_columns(self, self%n, size(f, 2, kind=ip), f)
    end subroutine reduce_banded
@@ -233,8 +233,8 @@ contains
 
    !> x_i <- L^-T (f_i - H x_c).
    subroutine expand_banded(self, x)
-      class(banded_t), intent(in) :: self
-      real(wp), intent(inout), contiguous :: x(:, :)
+      class(banded_t), intent(in) :: self            !< factored
+      real(wp), intent(inout), contiguous :: x(:, :) !< (n, loads): f_i above, x_c below
 
       call expand_columns(self, self%n, size(x, 2, kind=ip), x)
    end subroutine expand_banded
@@ -267,7 +267,7 @@ contains
 
    !> Band with its padding, coupling and retained block [bytes].
    pure integer(lp) function banded_memory(self)
-      class(banded_t), intent(in) :: self
+      class(banded_t), intent(in) :: self !< 0 before create
 
       banded_memory = 0
       if (.not. allocated(self%band)) return

@@ -116,7 +116,7 @@ contains
 
    !> Has BLAS take the buffers of so many threads now, when it is known that they can be had; they stay its own.
    subroutine claim_blas_buffers(n)
-      integer(ip), intent(in) :: n
+      integer(ip), intent(in) :: n !< >= 1; the threads that will call BLAS
 #ifdef ATRITO_BLAS_MEMORY
       type(c_ptr) :: buffers(n)
       integer(ip) :: i
@@ -164,7 +164,7 @@ contains
       if (has('avx512f') .and. has('avx512dq') .and. has('avx512bw') .and. has('avx512vl')) kernels = 'SkylakeX'
    contains
       pure logical function has(flag)
-         character(len=*), intent(in) :: flag
+         character(len=*), intent(in) :: flag !< one word of them
 
          has = index(' '//flags//' ', ' '//flag//' ') > 0
       end function has

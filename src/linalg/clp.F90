@@ -71,9 +71,9 @@ contains
    !> solution%status: LP_*; x, dual and objective where it is LP_OPTIMAL. Columns and rows should be scaled to size one: they are
    !> taken as they are.
    subroutine solve_linear_program(program, method, solution)
-      type(linear_program_t), intent(in) :: program
-      integer, intent(in) :: method              !< LP_BY_*
-      type(linear_solution_t), intent(out) :: solution
+      type(linear_program_t), intent(in) :: program    !< columns and rows scaled to size one; is not changed
+      integer, intent(in) :: method                    !< LP_BY_*
+      type(linear_solution_t), intent(out) :: solution !< arrays allocated only where status is LP_OPTIMAL
       procedure(new_model), pointer :: make
       type(c_ptr) :: model
       type(halting_t) :: halting

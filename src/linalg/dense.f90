@@ -136,7 +136,7 @@ contains
    subroutine eigen_symmetric(a, values, info)
       real(wp), intent(inout), contiguous :: a(:, :)     !< (n, n) lower triangle; the vectors, by columns, on return
       real(wp), intent(out), contiguous :: values(:)     !< (n)
-      integer(ip), intent(out) :: info
+      integer(ip), intent(out) :: info                   !< 0, or LAPACK's: some values did not converge
       real(wp), allocatable :: work(:)
       real(wp) :: wanted(1)
       type(halting_t) :: halting
@@ -154,7 +154,7 @@ contains
       real(wp), intent(inout), contiguous :: a(:, :)     !< (m, n); on return the basis is a(:, :rank)
       integer(ip), intent(out) :: rank                   !< 0..min(m, n)
       real(wp), intent(in) :: tol                        !< singular values below tol times the largest count as zero
-      integer(ip), intent(out) :: info
+      integer(ip), intent(out) :: info                   !< 0, or why there is no basis (head of the module)
       real(wp) :: values(min(size(a, 1), size(a, 2))), vectors(1, 1)
 
       call decompose('O', 'N', a, values, vectors, info)
@@ -167,7 +167,7 @@ contains
       real(wp), intent(in) :: a(:, :)                    !< (m, n)
       real(wp), intent(in) :: tol                        !< singular values below tol times the largest count as zero
       real(wp), allocatable, intent(out) :: z(:, :)      !< (n, n - rank)
-      integer(ip), intent(out) :: info
+      integer(ip), intent(out) :: info                   !< 0, or why there is no basis (head of the module)
       real(wp) :: copy(size(a, 1), size(a, 2)), values(min(size(a, 1), size(a, 2)))
       real(wp) :: vectors(size(a, 2), size(a, 2))
       integer(ip) :: i
@@ -184,7 +184,7 @@ contains
    !> Singular values above tol times the largest; a zero matrix has none. A perturbation E changes no singular value by more than
    !> |E| (Weyl), so with tol above the rounding of A what is below it may be zero, and what is above it is not.
    pure integer(ip) function count_rank(values, tol) result(rank)
-      real(wp), intent(in) :: values(:), tol
+      real(wp), intent(in) :: values(:), tol !< falling; share of the largest below which one is zero
 
       rank = 0
       if (size(values) > 0) rank = count(values > tol*values(1), kind=ip)
@@ -229,7 +229,7 @@ contains
       real(wp), intent(out) :: x(:)                      !< (n)
       real(wp), intent(in) :: tol                        !< singular values below tol times the largest count as zero
       integer(ip), intent(out) :: rank                   !< 0..min(m, n)
-      integer(ip), intent(out) :: info
+      integer(ip), intent(out) :: info                   !< 0, or why there is no answer (head of the module)
       real(wp) :: copy(size(a, 1), size(a, 2)), both(max(size(a, 1), size(a, 2), 1)), values(size(x))
       real(wp), allocatable :: work(:)
       integer(ip), allocatable :: iwork(:)
@@ -288,7 +288,7 @@ contains
    subroutine add_square(a, is_transposed, factor, c)
       real(wp), intent(in), contiguous :: a(:, :)        !< (n, k), or (k, n)
       logical, intent(in) :: is_transposed               !< a'a
-      real(wp), intent(in) :: factor
+      real(wp), intent(in) :: factor                     !< real number before the square, e.g. -1
       real(wp), intent(inout), contiguous :: c(:, :)     !< (n, n)
       type(halting_t) :: halting
 
@@ -327,14 +327,14 @@ contains
    end subroutine multiply_transposed
 
    pure integer(ip) function order(a)
-      real(wp), intent(in) :: a(:, :)
+      real(wp), intent(in) :: a(:, :) !< a square matrix
 
       order = size(a, 2, kind=ip)
    end function order
 
    !> Leading dimension; LAPACK wants at least 1.
    pure integer(ip) function leading(a)
-      real(wp), intent(in) :: a(:, :)
+      real(wp), intent(in) :: a(:, :) !< as LAPACK takes it
 
       leading = max(size(a, 1, kind=ip), 1_ip)
    end function leading

@@ -135,7 +135,7 @@ contains
 
    !> 1 + 2 + ... + n: blocks in the first n rows of a lower triangle.
    pure integer(ip) function triangle(n)
-      integer(ip), intent(in) :: n
+      integer(ip), intent(in) :: n !< order of the matrix
 
       triangle = n*(n + 1)/2
    end function triangle

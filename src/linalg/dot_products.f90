@@ -19,8 +19,8 @@ contains
 
    !> a . b
    pure real(wp) function dot(n, a, b)
-      integer(ip), intent(in) :: n
-      real(wp), intent(in) :: a(n), b(n)
+      integer(ip), intent(in) :: n       !< terms, >= 0
+      real(wp), intent(in) :: a(n), b(n) !< (n) columns
       integer(ip) :: k
 
       dot = 0.0_wp
@@ -32,8 +32,8 @@ contains
 
    !> a . b, from the last to the first, for those who go backward through a.
    pure real(wp) function dot_down(n, a, b)
-      integer(ip), intent(in) :: n
-      real(wp), intent(in) :: a(n), b(n)
+      integer(ip), intent(in) :: n       !< terms, >= 0
+      real(wp), intent(in) :: a(n), b(n) !< (n) columns
       integer(ip) :: k
 
       dot_down = 0.0_wp
@@ -46,10 +46,10 @@ contains
    !> y <- y - factor a, from the last to the first: the skyline is gone through backward by this, and memory is fetched ahead only
    !> while the addresses go one way.
    pure subroutine take_off(n, factor, a, y)
-      integer(ip), intent(in) :: n
-      real(wp), intent(in) :: factor
-      real(wp), intent(in) :: a(n)
-      real(wp), intent(inout) :: y(n)
+      integer(ip), intent(in) :: n    !< rows, >= 0
+      real(wp), intent(in) :: factor  !< how many times a is taken off
+      real(wp), intent(in) :: a(n)    !< (n) column that is subtracted
+      real(wp), intent(inout) :: y(n) !< (n) column that is changed
       integer(ip) :: k
 
       !$omp simd
@@ -60,11 +60,11 @@ contains
 
    !> products(c) = a . panel(:, c)
    pure subroutine dot_1x4(n, a, rows, panel, products)
-      integer(ip), intent(in) :: n
-      real(wp), intent(in) :: a(n)
+      integer(ip), intent(in) :: n                           !< terms, >= 0
+      real(wp), intent(in) :: a(n)                           !< (n) column
       integer(ip), intent(in) :: rows                        !< leading dimension of the panel
       real(wp), intent(in) :: panel(rows, PANEL_WIDTH)       !< only its first n rows are used
-      real(wp), intent(out) :: products(PANEL_WIDTH)
+      real(wp), intent(out) :: products(PANEL_WIDTH)         !< one for each column of the panel
       real(wp) :: s1, s2, s3, s4
       integer(ip) :: k
 
@@ -84,11 +84,11 @@ contains
 
    !> products(c, 1) = a . panel(:, c), products(c, 2) = b . panel(:, c)
    pure subroutine dot_2x4(n, a, b, rows, panel, products)
-      integer(ip), intent(in) :: n
-      real(wp), intent(in) :: a(n), b(n)
+      integer(ip), intent(in) :: n                           !< terms, >= 0
+      real(wp), intent(in) :: a(n), b(n)                     !< (n) two columns
       integer(ip), intent(in) :: rows                        !< leading dimension of the panel
       real(wp), intent(in) :: panel(rows, PANEL_WIDTH)       !< only its first n rows are used
-      real(wp), intent(out) :: products(PANEL_WIDTH, 2)
+      real(wp), intent(out) :: products(PANEL_WIDTH, 2)      !< of the panel's columns with a, with b
       real(wp) :: s1, s2, s3, s4, t1, t2, t3, t4
       integer(ip) :: k
 

@@ -57,11 +57,11 @@ contains
    !> A pivot is the square of the distance of a row from those before it, measured so that the row has the length 1: where it is
    !> below LEAST_PIVOT the row depends on them, two points of the line say the same, and the unknown is named to the caller.
    subroutine factor_free_set(c, d, set, factor, dependent)
-      real(wp), intent(in), contiguous :: c(:, :) !< (m, m) [L/F]
-      real(wp), intent(in) :: d(:)               !< (m) [L/F]
-      integer(ip), intent(in) :: set(:)
-      type(free_set_factor_t), intent(inout) :: factor
-      integer(ip), intent(out) :: dependent      !< 0, or an unknown whose row depends on those before; then there is no factor
+      real(wp), intent(in), contiguous :: c(:, :)      !< (m, m) [L/F]
+      real(wp), intent(in) :: d(:)                     !< (m) [L/F]
+      integer(ip), intent(in) :: set(:)                !< (n) distinct free unknowns, 1 .. m
+      type(free_set_factor_t), intent(inout) :: factor !< replaced; its memory is used again where n is the same
+      integer(ip), intent(out) :: dependent !< 0, or an unknown whose row depends on those before; then there is no factor
       integer(ip) :: i, j, n, failed
 
       n = size(set, kind=ip)
@@ -93,7 +93,7 @@ contains
    !> Estimate of the condition of the scaled matrix, in the 1-norm. Its norm is that of the upper triangle, which is still there:
    !> the column sums of |M| are 1 for the diagonal and each entry twice, in its column and, by symmetry, in that of its row.
    real(wp) function condition_of(factor) result(condition)
-      type(free_set_factor_t), intent(in) :: factor
+      type(free_set_factor_t), intent(in) :: factor !< as factor_free_set left it; 1 without a factor
       real(wp), allocatable :: sums(:)
       integer(ip) :: j, n
 
@@ -112,11 +112,11 @@ contains
    !> Where the unknowns of a set stand in a factor, and by how much their scaling differs: R and U^-1 T of the head of this module.
    !> What only one of the two sets has is counted, to tell whether the factor is still near enough.
    pure subroutine relate_sets(factor, m, set, scale, relation)
-      type(free_set_factor_t), intent(in) :: factor
-      integer(ip), intent(in) :: m               !< unknowns there are
-      integer(ip), intent(in) :: set(:)
-      real(wp), intent(in) :: scale(:)           !< its present scale
-      type(relation_t), intent(out) :: relation
+      type(free_set_factor_t), intent(in) :: factor !< there is one
+      integer(ip), intent(in) :: m                  !< unknowns there are
+      integer(ip), intent(in) :: set(:)             !< (n) distinct free unknowns, 1 .. m
+      real(wp), intent(in) :: scale(:)              !< its present scale
+      type(relation_t), intent(out) :: relation     !< how `set` lies in the set of the factor
       integer(ip) :: place_of(m), i
 
       place_of = 0
@@ -134,10 +134,10 @@ contains
    !> P^-1 x in scaled form: x is taken to the unknowns of the factor and to its scaling, 0 where F has one that G has not; solved;
    !> and taken back. On the others P is 1. Two triangles go by: 2 n^2 operations, and the time that they take to come from memory.
    subroutine apply_inverse(factor, relation, x, y)
-      type(free_set_factor_t), intent(in) :: factor
-      type(relation_t), intent(in) :: relation
-      real(wp), intent(in) :: x(:)               !< (n)
-      real(wp), intent(out) :: y(:)              !< (n)
+      type(free_set_factor_t), intent(in) :: factor !< as factor_free_set left it
+      type(relation_t), intent(in) :: relation      !< of the present set to that of the factor
+      real(wp), intent(in) :: x(:)                  !< (n)
+      real(wp), intent(out) :: y(:)                 !< (n)
       real(wp) :: work(size(factor%set))
       integer(ip) :: i
 

@@ -16,21 +16,21 @@ module atrito_halting
    !> A floating-point environment. C's fenv_t is 32 bytes on x86-64, less elsewhere.
    type :: halting_t
       private
-      integer(c_int64_t) :: environment(32) = 0_c_int64_t
+      integer(c_int64_t) :: environment(32) = 0_c_int64_t !< bytes of a fenv_t, with room to spare
    end type halting_t
 
 contains
 
    !> Saves the environment, clears the exception flags and stops the halting on any exception.
    subroutine suspend_halting(saved)
-      type(halting_t), intent(out) :: saved
+      type(halting_t), intent(out) :: saved !< for restore_halting
 
       call c_suspend_halting(saved%environment)
    end subroutine suspend_halting
 
    !> Back to what suspend_halting found: flags and halting modes.
    subroutine restore_halting(saved)
-      type(halting_t), intent(in) :: saved
+      type(halting_t), intent(in) :: saved !< as suspend_halting left it
 
       call c_restore_halting(saved%environment)
    end subroutine restore_halting

@@ -25,21 +25,21 @@ module atrito_linear_program
 
    !> A bound of HUGE_REAL, or -HUGE_REAL, is none.
    type :: linear_program_t
-      integer(ip) :: n_rows = 0
-      integer(ip) :: n_columns = 0
+      integer(ip) :: n_rows = 0                                 !< rows of A
+      integer(ip) :: n_columns = 0                              !< columns of A, unknowns
       integer(ip), allocatable :: first(:)           !< (n_columns + 1) A by columns: entries first(j) : first(j+1) - 1
       integer(ip), allocatable :: row(:)             !< of each entry, 1 .. n_rows
-      real(wp), allocatable :: entry(:)
+      real(wp), allocatable :: entry(:)                         !< values, in the order of `row`
       real(wp), allocatable :: lower(:), upper(:), objective(:) !< (n_columns)
       real(wp), allocatable :: row_lower(:), row_upper(:)       !< (n_rows)
    end type linear_program_t
 
    type :: linear_solution_t
-      integer :: status = LP_NOT_AVAILABLE
+      integer :: status = LP_NOT_AVAILABLE           !< LP_*
       real(wp), allocatable :: x(:)                  !< (n_columns)
       real(wp), allocatable :: dual(:)               !< (n_rows) what the objective gains with the bound of a row
-      real(wp) :: objective = 0.0_wp
-      integer(ip) :: iterations = 0
+      real(wp) :: objective = 0.0_wp                 !< objective'x at the optimum
+      integer(ip) :: iterations = 0                  !< steps that the solver took
    end type linear_solution_t
 
 end module atrito_linear_program

@@ -63,15 +63,15 @@ module atrito_linear_solver
       !> Makes room for a zero matrix of the profile. status: STATUS_INTERNAL when the memory is too small.
       subroutine create_solver(self, profile, status)
          import :: linear_solver_t, profile_t, status_t
-         class(linear_solver_t), intent(inout) :: self
+         class(linear_solver_t), intent(inout) :: self    !< what it held is given up
          type(profile_t), intent(in) :: profile           !< closed
-         type(status_t), intent(out) :: status
+         type(status_t), intent(out) :: status            !< OK, or as above
       end subroutine create_solver
 
       !> Adds an element matrix.
       subroutine add_matrix(self, equations, matrix)
          import :: linear_solver_t, ip, wp
-         class(linear_solver_t), intent(inout) :: self
+         class(linear_solver_t), intent(inout) :: self    !< created, not yet factored
          integer(ip), intent(in) :: equations(:)          !< equation numbers; 0 = prescribed, skipped
          real(wp), intent(in) :: matrix(:, :)             !< symmetric, (size(equations), size(equations))
       end subroutine add_matrix
@@ -80,35 +80,35 @@ module atrito_linear_solver
       !> the equation, and the matrix is lost. STATUS_INTERNAL when the memory is too small.
       subroutine factor_interior(self, status)
          import :: linear_solver_t, status_t
-         class(linear_solver_t), intent(inout) :: self
-         type(status_t), intent(out) :: status
+         class(linear_solver_t), intent(inout) :: self !< all matrices added; holds the factor on return
+         type(status_t), intent(out) :: status         !< OK, or as above
       end subroutine factor_interior
 
       !> The Schur complement, both triangles; after factor.
       subroutine get_schur_complement(self, schur)
          import :: linear_solver_t, wp
-         class(linear_solver_t), intent(in) :: self
+         class(linear_solver_t), intent(in) :: self       !< factored
          real(wp), intent(out) :: schur(:, :)             !< (n_retained, n_retained)
       end subroutine get_schur_complement
 
       !> f_c <- f_c - K_ci K_ii^-1 f_i; f_i <- the half-solved part that expand wants. After factor.
       subroutine reduce_load(self, f)
          import :: linear_solver_t, wp
-         class(linear_solver_t), intent(in) :: self
+         class(linear_solver_t), intent(in) :: self       !< factored
          real(wp), intent(inout), contiguous :: f(:, :)   !< (n, loads)
       end subroutine reduce_load
 
       !> x_i <- K_ii^-1 (f_i - K_ic x_c), with f_i as reduce left it and x_c given.
       subroutine expand_solution(self, x)
          import :: linear_solver_t, wp
-         class(linear_solver_t), intent(in) :: self
+         class(linear_solver_t), intent(in) :: self       !< factored
          real(wp), intent(inout), contiguous :: x(:, :)   !< (n, loads): f_i above, x_c below
       end subroutine expand_solution
 
       !> Memory held [bytes].
       pure integer(lp) function count_bytes(self)
          import :: linear_solver_t, lp
-         class(linear_solver_t), intent(in) :: self
+         class(linear_solver_t), intent(in) :: self !< 0 before create
       end function count_bytes
 
    end interface
@@ -121,8 +121,8 @@ contains
    !> Adds the matrices of a store, in their order. Elements that follow one another and have one matrix in common get it unpacked
    !> once. The solver may empty the store.
    subroutine add_one_by_one(self, store)
-      class(linear_solver_t), intent(inout) :: self
-      type(element_store_t), intent(inout) :: store
+      class(linear_solver_t), intent(inout) :: self !< created, not yet factored
+      type(element_store_t), intent(inout) :: store !< each matrix with its equations; 0 there is skipped
       real(wp), allocatable :: matrix(:, :)
       integer(ip) :: e, m, n, held
 
@@ -151,12 +151,12 @@ contains
    !> `usable` is false for a pivot that must not be divided by: one that is round-off, at most max(n eps, 1e-15) of its original
    !> diagonal. A pivot clearly below zero is counted and can be used.
    pure subroutine note_pivot(report, equation, n, original, pivot, usable)
-      type(factor_report_t), intent(inout) :: report
-      integer(ip), intent(in) :: equation          !< 1..n
-      integer(ip), intent(in) :: n                 !< order of the matrix
-      real(wp), intent(in) :: original             !< diagonal before the elimination
-      real(wp), intent(in) :: pivot                !< diagonal after it
-      logical, intent(out) :: usable
+      type(factor_report_t), intent(inout) :: report !< the pivot is counted in
+      integer(ip), intent(in) :: equation            !< 1..n
+      integer(ip), intent(in) :: n                   !< order of the matrix
+      real(wp), intent(in) :: original               !< diagonal before the elimination
+      real(wp), intent(in) :: pivot                  !< diagonal after it
+      logical, intent(out) :: usable                 !< false where the pivot is round-off: stop
       real(wp) :: tolerance, lost
 
       tolerance = smallest_ratio(n)
@@ -185,9 +185,9 @@ contains
 
    !> The status of a factorisation that stopped (`stopped`) or went on over negative pivots.
    pure subroutine set_pivot_status(report, stopped, status)
-      type(factor_report_t), intent(in) :: report
-      logical, intent(in) :: stopped
-      type(status_t), intent(out) :: status
+      type(factor_report_t), intent(in) :: report !< of all pivots so far
+      logical, intent(in) :: stopped              !< at a pivot that was not usable
+      type(status_t), intent(out) :: status       !< STATUS_SINGULAR with the equation; OK where neither is so
 
       if (report%sign_changes > 0) then
          call set_status(status, STATUS_SINGULAR, 'the matrix is singular or indefinite: negative pivot at equation ' &

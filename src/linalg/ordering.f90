@@ -41,7 +41,7 @@ module atrito_ordering
    !> A sequence of nodes being made, breadth first.
    type :: walk_t
       integer(ip), allocatable :: nodes(:)       !< (n)
-      integer(ip) :: length = 0
+      integer(ip) :: length = 0                  !< nodes in the walk, the first ones of `nodes`
       logical, allocatable :: seen(:)            !< (n)
    end type walk_t
 
@@ -53,7 +53,7 @@ contains
    subroutine build_graph(n, elements, graph)
       integer(ip), intent(in) :: n               !< nodes
       integer(ip), intent(in) :: elements(:, :)  !< (nodes per element, elements): 1..n, 0 beyond the count
-      type(graph_t), intent(out) :: graph
+      type(graph_t), intent(out) :: graph        !< neighbours of each node, once each
       integer(ip), allocatable :: start(:), list(:), last_seen_from(:)
       integer(ip) :: i, used, e, k, node
 
@@ -91,7 +91,7 @@ contains
       integer(ip), intent(in) :: n               !< nodes
       integer(ip), intent(in) :: elements(:, :)  !< (nodes per element, elements): 1..n, 0 beyond the count
       integer(ip), intent(out) :: component(:)   !< (n) 1..n_components; a node without element is one by itself
-      integer(ip), intent(out) :: n_components
+      integer(ip), intent(out) :: n_components   !< components, isolated nodes among them
       integer(ip) :: parent(n), e, k, i, one, other
 
       parent = [(i, i=1, n)]
@@ -125,7 +125,7 @@ contains
    !> components have no entry in common, so nothing is gained or lost by their order. Time linear in the number of edges (and in
    !> last_nodes times the components that hold any) where no node has very many.
    pure subroutine order_contact_last(graph, last_nodes, order, connected)
-      type(graph_t), intent(in) :: graph
+      type(graph_t), intent(in) :: graph         !< neighbours of each node, as build_graph makes it
       integer(ip), intent(in) :: last_nodes(:)   !< distinct nodes, in the order wanted (along the chain); may be empty
       integer(ip), intent(out) :: order(:)       !< (n) order(k) = node at place k
       logical, intent(in), optional :: connected !< the graph is known to be one component; default .false.
@@ -231,9 +231,9 @@ contains
    !> Numbers the connected components from 1 in the order of their lowest nodes: a walk from a node that nobody has seen reaches
    !> all of its component and nothing else. Time linear in the number of edges.
    pure subroutine connected_components(graph, component, n_components)
-      type(graph_t), intent(in) :: graph
+      type(graph_t), intent(in) :: graph         !< neighbours of each node, as build_graph makes it
       integer(ip), intent(out) :: component(:)   !< (n) 1..n_components
-      integer(ip), intent(out) :: n_components
+      integer(ip), intent(out) :: n_components   !< components, isolated nodes among them
       type(walk_t) :: walk
       integer(ip) :: i, first
 

@@ -44,7 +44,7 @@ contains
 
    !> Begins with a diagonal matrix.
    pure subroutine begin_profile(profile, n, n_retained)
-      type(profile_t), intent(out) :: profile
+      type(profile_t), intent(out) :: profile   !< still open, add_to_profile comes next
       integer(ip), intent(in) :: n              !< number of equations, >= 0
       integer(ip), intent(in) :: n_retained         !< retained equations, 0 <= n_retained <= n
       integer(ip) :: j
@@ -60,7 +60,7 @@ contains
    !> Makes room for an element matrix: all of its equations reach up to the lowest of them, so that the assembled matrix fits
    !> whatever the entries are. Entries that are zero by accident take room as well.
    pure subroutine add_to_profile(profile, equations)
-      type(profile_t), intent(inout) :: profile
+      type(profile_t), intent(inout) :: profile !< open; columns of these equations grow
       integer(ip), intent(in) :: equations(:)   !< equation numbers of the element in any order; 0 = prescribed, skipped
       integer(ip) :: k, lowest
       integer(lp) :: free
@@ -81,7 +81,7 @@ contains
    !> Ends with the retained block full, as the Schur complement is: eliminating the interior couples all retained equations that
    !> the body joins, whether or not an element has them.
    pure subroutine close_profile(profile)
-      type(profile_t), intent(inout) :: profile
+      type(profile_t), intent(inout) :: profile !< every element has been added
       integer(ip) :: j, n_interior
 
       n_interior = profile%n - profile%n_retained
@@ -92,8 +92,8 @@ contains
 
    !> A profile of columns of one height, closed.
    pure subroutine expect_profile(profile, n, n_retained, height)
-      type(profile_t), intent(out) :: profile
-      integer(ip), intent(in) :: n, n_retained
+      type(profile_t), intent(out) :: profile   !< closed, as if it were of such a mesh
+      integer(ip), intent(in) :: n, n_retained  !< equations, and how many of the last ones are retained
       integer(ip), intent(in) :: height         !< >= 1
       integer(ip) :: j
 
@@ -107,7 +107,7 @@ contains
 
    !> Entries within the profile, diagonals included.
    pure integer(lp) function profile_length(profile)
-      type(profile_t), intent(in) :: profile
+      type(profile_t), intent(in) :: profile !< open or closed
       integer(ip) :: j
 
       profile_length = 0
@@ -118,7 +118,7 @@ contains
 
    !> Half bandwidth of the interior block (retained equations left out), the diagonal not counted.
    pure integer(ip) function half_bandwidth(profile)
-      type(profile_t), intent(in) :: profile
+      type(profile_t), intent(in) :: profile !< closed
       integer(ip) :: j
 
       half_bandwidth = 0
@@ -129,7 +129,7 @@ contains
 
    !> Greatest height of a column; 0 without equations.
    pure integer(ip) function largest_height(profile)
-      type(profile_t), intent(in) :: profile
+      type(profile_t), intent(in) :: profile !< closed
       integer(ip) :: j
 
       largest_height = 0
@@ -140,14 +140,14 @@ contains
 
    !> Mean height of the columns; 0 without equations.
    pure real(wp) function mean_height(profile)
-      type(profile_t), intent(in) :: profile
+      type(profile_t), intent(in) :: profile !< closed
 
       mean_height = real(profile_length(profile), wp)/real(max(profile%n, 1_ip), wp)
    end function mean_height
 
    !> First interior row that the retained equations reach; n_interior + 1 when they reach none.
    pure integer(ip) function first_coupled_row(profile) result(row)
-      type(profile_t), intent(in) :: profile
+      type(profile_t), intent(in) :: profile !< closed
       integer(ip) :: j
 
       row = profile%n - profile%n_retained + 1
@@ -163,7 +163,7 @@ contains
    !> a term, then comes the division by the pivot and the sum for the diagonal: h (h - 1) + h + 2 h, and with what the products are
    !> taken off h (h + 3). A retained column has a dot product of length h besides for each retained column before it.
    pure real(wp) function skyline_flops(profile) result(flops)
-      type(profile_t), intent(in) :: profile
+      type(profile_t), intent(in) :: profile !< closed
       real(wp) :: height, retained_before
       integer(ip) :: j, n_interior
 
@@ -180,7 +180,7 @@ contains
    !> band, then for each retained equation the substitution, (2 w + 1) a row of the coupling, and its products with the others, of
    !> which symmetry leaves half: n_retained a row.
    pure real(wp) function banded_flops(profile) result(flops)
-      type(profile_t), intent(in) :: profile
+      type(profile_t), intent(in) :: profile !< closed
       real(wp) :: n_interior, n_retained, rows, band
 
       n_retained = real(profile%n_retained, wp)
@@ -196,7 +196,7 @@ contains
    !> Numer. Anal. 10 (1973) 345-363, for the square); the mean height of the columns tells the width. c was counted by MUMPS with
    !> the order of atrito_dissection for bodies of 27,000 to 850,000 equations: 30 to 55.
    pure real(wp) function sparse_flops(profile) result(flops)
-      type(profile_t), intent(in) :: profile
+      type(profile_t), intent(in) :: profile !< closed
       real(wp), parameter :: C = 45.0_wp
       real(wp) :: n_retained
 
@@ -206,7 +206,7 @@ contains
 
    !> Expected entries of the sparse factor: a n log2 m - b n of the grid above, counted by MUMPS for the same bodies.
    pure real(wp) function sparse_entries(profile) result(entries)
-      type(profile_t), intent(in) :: profile
+      type(profile_t), intent(in) :: profile !< closed
       real(wp), parameter :: A = 11.0_wp, B = 16.0_wp, LEAST = 10.0_wp
 
       entries = real(profile%n, wp)*max(A*log(max(mean_height(profile), 1.0_wp))/log(2.0_wp) - B, LEAST)
@@ -215,21 +215,21 @@ contains
    !> Memory that the sparse solver is expected to hold [bytes]: the factor, and half as much for matrix and lists. A mesh without
    !> equal elements takes up to a quarter more, a regular one half of it.
    pure integer(lp) function sparse_bytes(profile) result(bytes)
-      type(profile_t), intent(in) :: profile
+      type(profile_t), intent(in) :: profile !< closed
 
       bytes = REAL_BYTES*int(1.5_wp*sparse_entries(profile), lp)
    end function sparse_bytes
 
    !> Memory of the skyline solver [bytes].
    pure integer(lp) function skyline_bytes(profile) result(bytes)
-      type(profile_t), intent(in) :: profile
+      type(profile_t), intent(in) :: profile !< closed
 
       bytes = REAL_BYTES*(profile_length(profile) + int(profile%n - profile%n_retained, lp)) + INDEX_BYTES*int(profile%n, lp)
    end function skyline_bytes
 
    !> Memory of the banded solver [bytes].
    pure integer(lp) function banded_bytes(profile) result(bytes)
-      type(profile_t), intent(in) :: profile
+      type(profile_t), intent(in) :: profile !< closed
       integer(lp) :: n_interior, n_retained, rows, band_rows
 
       n_retained = int(profile%n_retained, lp)

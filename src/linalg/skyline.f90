@@ -75,9 +75,9 @@ contains
    !> Room for the columns, all zero. What is asked for here is all that the solver will hold: the factor takes the place of the
    !> matrix.
    subroutine create_skyline(self, profile, status)
-      class(skyline_t), intent(inout) :: self
-      type(profile_t), intent(in) :: profile
-      type(status_t), intent(out) :: status
+      class(skyline_t), intent(inout) :: self !< what it held is given up
+      type(profile_t), intent(in) :: profile  !< closed
+      type(status_t), intent(out) :: status   !< STATUS_INTERNAL where the memory does not suffice
       integer(lp) :: length
       integer(ip) :: j
       integer :: no_memory
@@ -105,9 +105,9 @@ contains
    !> Adds an element matrix: the entries of the upper triangle, each at its distance above the diagonal of its column. (The profile
    !> has room for all of them: add_to_profile was given the element.)
    subroutine add_to_skyline(self, equations, matrix)
-      class(skyline_t), intent(inout) :: self
-      integer(ip), intent(in) :: equations(:)
-      real(wp), intent(in) :: matrix(:, :)
+      class(skyline_t), intent(inout) :: self !< created, not yet factored
+      integer(ip), intent(in) :: equations(:) !< equation numbers; 0 = prescribed, skipped
+      real(wp), intent(in) :: matrix(:, :)    !< symmetric, of these equations
       integer(ip) :: a, b, i, j
       integer(lp) :: k
 
@@ -126,8 +126,8 @@ contains
    !> Panel by panel, from left to right: take the columns out of the skyline, eliminate the rows above the panel, then the triangle
    !> within it, and put D and L' back. A pivot that must not be divided by ends it.
    subroutine factor_skyline(self, status)
-      class(skyline_t), intent(inout) :: self
-      type(status_t), intent(out) :: status
+      class(skyline_t), intent(inout) :: self !< matrix assembled; holds the factor on return
+      type(status_t), intent(out) :: status   !< STATUS_SINGULAR where K_ii is singular or indefinite
       type(panel_t) :: panel
       logical :: stopped
 
@@ -303,8 +303,8 @@ contains
 
    !> The columns of the retained equations, from the first retained row down: both triangles of S.
    subroutine get_skyline_schur(self, schur)
-      class(skyline_t), intent(in) :: self
-      real(wp), intent(out) :: schur(:, :)
+      class(skyline_t), intent(in) :: self !< factored
+      real(wp), intent(out) :: schur(:, :) !< (n_retained, n_retained)
       integer(ip) :: j, n_interior
 
       n_interior = self%n - self%n_retained
@@ -319,8 +319,8 @@ contains
    !> loop serves f_c: sum over k of (D^-1 L^-1 K_ic)_kj (L^-1 f_i)_k is what K_ci K_ii^-1 f_i has in row j. All loads are taken
    !> with a column while it is in the cache.
    subroutine reduce_skyline(self, f)
-      class(skyline_t), intent(in) :: self
-      real(wp), intent(inout), contiguous :: f(:, :)
+      class(skyline_t), intent(in) :: self           !< factored
+      real(wp), intent(inout), contiguous :: f(:, :) !< (n, loads)
       integer(ip) :: j, load, first, eliminated, n_interior
 
       n_interior = self%n - self%n_retained
@@ -341,8 +341,8 @@ contains
    !> Backward, by columns: x_j is known when all columns behind it have been taken off, and its own is taken off the rows above
    !> then. The columns of the retained equations come first and make D^-1 L^-1 (f_i - K_ic x_c) of the interior.
    subroutine expand_skyline(self, x)
-      class(skyline_t), intent(in) :: self
-      real(wp), intent(inout), contiguous :: x(:, :)
+      class(skyline_t), intent(in) :: self           !< factored
+      real(wp), intent(inout), contiguous :: x(:, :) !< (n, loads): f_i above, x_c below
       integer(ip) :: j, load, first, last
       integer(lp) :: start
 
@@ -359,7 +359,7 @@ contains
 
    !> The columns, the pivots and the two lists of places [bytes].
    pure integer(lp) function skyline_memory(self)
-      class(skyline_t), intent(in) :: self
+      class(skyline_t), intent(in) :: self !< 0 before create
 
       skyline_memory = 0
       if (.not. allocated(self%values)) return

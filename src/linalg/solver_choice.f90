@@ -27,7 +27,7 @@ contains
    !> Whether a body of n equations is to be numbered for its profile: it is not when it gets a solver with an order of its own.
    pure logical function needs_profile(asked, n)
       integer, intent(in) :: asked                               !< SOLVER_* or 0 for the choice
-      integer(ip), intent(in) :: n
+      integer(ip), intent(in) :: n                               !< equations of the body
 
       needs_profile = asked == SOLVER_SKYLINE .or. asked == SOLVER_BANDED
       if (asked == 0) needs_profile = n < LEAST_SPARSE
@@ -36,7 +36,7 @@ contains
    !> An empty solver of a kind; not allocated when the kind is none of SOLVER_*.
    subroutine new_solver(kind, solver)
       integer, intent(in) :: kind                                !< one of SOLVER_*
-      class(linear_solver_t), allocatable, intent(out) :: solver
+      class(linear_solver_t), allocatable, intent(out) :: solver !< of this kind, without a matrix
 
       select case (kind)
       case (SOLVER_SKYLINE)

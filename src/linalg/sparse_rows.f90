@@ -14,7 +14,7 @@ module atrito_sparse_rows
    !> What has more to say of its rows or columns extends it.
    type :: sparse_rows_t
       integer(ip) :: n = 0                       !< rows
-      integer(ip) :: n_columns = 0
+      integer(ip) :: n_columns = 0               !< length of x
       integer(ip), allocatable :: first(:)       !< (n + 1)
       integer(ip), allocatable :: column(:)      !< of each entry
       real(wp), allocatable :: value(:)          !< of each entry

@@ -38,9 +38,9 @@ module atrito_sparse_solver
 
    type, extends(linear_solver_t) :: sparse_t
       private
-      type(elimination_t) :: elimination
+      type(elimination_t) :: elimination         !< order of the equations, and supernodes
       type(element_store_t) :: store             !< until factor
-      type(fronts_t) :: fronts
+      type(fronts_t) :: fronts                   !< tree of fronts, and their factors after factor
    contains
       procedure :: create => create_fronts
       procedure :: add => add_to_fronts
@@ -57,9 +57,9 @@ contains
    !> Takes the order of elimination that came with the profile; without one the equations are eliminated as they are numbered, by
    !> blocks. Nothing is known of the fronts before all elements are there.
    subroutine create_fronts(self, profile, status)
-      class(sparse_t), intent(inout) :: self
-      type(profile_t), intent(in) :: profile
-      type(status_t), intent(out) :: status
+      class(sparse_t), intent(inout) :: self !< its store is emptied
+      type(profile_t), intent(in) :: profile !< closed
+      type(status_t), intent(out) :: status  !< OK, since memory is asked for later
 
       self%n = profile%n
       self%n_retained = profile%n_retained
@@ -74,17 +74,17 @@ contains
 
    !> Keeps an element matrix until factor.
    subroutine add_to_fronts(self, equations, matrix)
-      class(sparse_t), intent(inout) :: self
-      integer(ip), intent(in) :: equations(:)
-      real(wp), intent(in) :: matrix(:, :)
+      class(sparse_t), intent(inout) :: self  !< created, not yet factored
+      integer(ip), intent(in) :: equations(:) !< equation numbers; 0 = prescribed, skipped
+      real(wp), intent(in) :: matrix(:, :)    !< symmetric, of these equations
 
       call add_to_store(self%store, equations, matrix)
    end subroutine add_to_fronts
 
    !> The first store is taken as it is.
    subroutine add_store_to_fronts(self, store)
-      class(sparse_t), intent(inout) :: self
-      type(element_store_t), intent(inout) :: store
+      class(sparse_t), intent(inout) :: self        !< created, not yet factored
+      type(element_store_t), intent(inout) :: store !< is empty on return where it was the first
 
       if (self%store%n > 0) then
          call add_one_by_one(self, store)
@@ -97,8 +97,8 @@ contains
    !> number is computed, from the tree alone. The diagonal is summed up first, since pivots are compared with what stood there
    !> before.
    subroutine factor_and_report(self, status)
-      class(sparse_t), intent(inout) :: self
-      type(status_t), intent(out) :: status
+      class(sparse_t), intent(inout) :: self !< all matrices added; they are given up
+      type(status_t), intent(out) :: status  !< STATUS_SINGULAR, or STATUS_INTERNAL without memory
       real(wp), allocatable :: by_equation(:), diagonal(:)
       integer(lp) :: held
       integer :: no_memory
@@ -125,11 +125,11 @@ contains
 
    !> What the solver will hold of a body, and for a while at the most [bytes], from the tree of its fronts.
    subroutine expect_fronts(elimination, n, n_retained, store, held, most, enough)
-      type(elimination_t), intent(in) :: elimination
-      integer(ip), intent(in) :: n, n_retained
-      type(element_store_t), intent(in) :: store
-      integer(lp), intent(out) :: held, most
-      logical, intent(out) :: enough             !< memory to tell
+      type(elimination_t), intent(in) :: elimination !< order of the equations and supernodes
+      integer(ip), intent(in) :: n, n_retained       !< equations, and how many of the last ones are retained
+      type(element_store_t), intent(in) :: store     !< matrices of all elements
+      integer(lp), intent(out) :: held, most         !< of the factors [bytes]; at the peak of the factorisation [bytes]
+      logical, intent(out) :: enough                 !< memory to tell
       type(fronts_t) :: fronts
 
       call plan_fronts(elimination, n, n_retained, store, fronts)
@@ -192,8 +192,8 @@ contains
 
    !> The last front is S, as it was assembled.
    subroutine get_last_front(self, schur)
-      class(sparse_t), intent(in) :: self
-      real(wp), intent(out) :: schur(:, :)
+      class(sparse_t), intent(in) :: self  !< factored
+      real(wp), intent(out) :: schur(:, :) !< (n_retained, n_retained)
 
       call unpack_matrix(self%fronts%factors(self%fronts%n_classes)%update, schur)
    end subroutine get_last_front
@@ -201,8 +201,8 @@ contains
    !> f by positions, then forward through the tree, from the leaves to the root: x_p <- L^-1 x_p, and H' x_p is taken off the
    !> border. The half-solved supernode is left by positions.
    subroutine reduce_by_fronts(self, f)
-      class(sparse_t), intent(in) :: self
-      real(wp), intent(inout), contiguous :: f(:, :)
+      class(sparse_t), intent(in) :: self            !< factored
+      real(wp), intent(inout), contiguous :: f(:, :) !< (n, loads)
       real(wp), allocatable :: x(:)
       integer(ip) :: load, i
 
@@ -221,8 +221,8 @@ contains
    !> Backward, from the root to the leaves: x_p <- L^-T (x_p - H x_b), with the border x_b that the ancestors have found; then by
    !> equations.
    subroutine expand_by_fronts(self, x)
-      class(sparse_t), intent(in) :: self
-      real(wp), intent(inout), contiguous :: x(:, :)
+      class(sparse_t), intent(in) :: self            !< factored
+      real(wp), intent(inout), contiguous :: x(:, :) !< (n, loads): f_i above, x_c below
       real(wp), allocatable :: by_position(:)
       integer(ip) :: load, i
 
@@ -239,7 +239,7 @@ contains
 
    !> The factors and what leads through them.
    pure integer(lp) function fronts_memory(self) result(bytes)
-      class(sparse_t), intent(in) :: self
+      class(sparse_t), intent(in) :: self !< 0 before factor
 
       bytes = 0
       if (.not. allocated(self%fronts%factors)) return

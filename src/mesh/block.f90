@@ -14,7 +14,7 @@ contains
    pure function graded_lines(n, grade, of_halves) result(t)
       integer(ip), intent(in) :: n        !< elements, >= 1
       real(wp), intent(in) :: grade       !< last over first element length, > 0
-      logical, intent(in) :: of_halves
+      logical, intent(in) :: of_halves    !< grade from both ends to the middle
       real(wp) :: t(0:n), ratio
       integer(ip) :: i, steps
 
@@ -59,7 +59,7 @@ contains
 
    !> The same for a block whose sides are arcs.
    subroutine curved_nodes(map, tx, ty, x)
-      type(block_map_t), intent(in) :: map
+      type(block_map_t), intent(in) :: map           !< corners, and the centres of the arcs
       real(wp), intent(in) :: tx(0:), ty(0:)         !< lines 0..1 along and across
       real(wp), intent(out) :: x(:, :)               !< (2, size(tx)*size(ty)) [L]
       integer(ip) :: i, j, n

@@ -18,16 +18,16 @@ contains
 
    !> Whether a side of the block is an arc.
    pure logical function has_arcs(map)
-      type(block_map_t), intent(in) :: map
+      type(block_map_t), intent(in) :: map !< its sides that are arcs are asked for
 
       has_arcs = any(map%is_arc)
    end function has_arcs
 
    !> The point t = 0..1 of a side; along an arc t is in proportion to the angle.
    pure function side_point(map, side, t) result(x)
-      type(block_map_t), intent(in) :: map
+      type(block_map_t), intent(in) :: map           !< corners and centres are read
       integer(ip), intent(in) :: side                !< 1..4
-      real(wp), intent(in) :: t
+      real(wp), intent(in) :: t                      !< 0..1, taken as 0 or 1 beyond
       real(wp) :: x(2)
 
       associate (a => map%corners(:, FROM(side)), b => map%corners(:, TO(side)))
@@ -92,8 +92,8 @@ contains
    !> of the sides bottom, top, left and right: the sum of what each pair of sides gives, less what the corners c alone would give,
    !> which both pairs have.
    pure function map_point(map, u, v) result(x)
-      type(block_map_t), intent(in) :: map
-      real(wp), intent(in) :: u, v
+      type(block_map_t), intent(in) :: map !< corners and centres are read
+      real(wp), intent(in) :: u, v         !< 0..1 along BOTTOM; along LEFT
       real(wp) :: x(2)
 
       if (v <= 0.0_wp) then
@@ -116,8 +116,8 @@ contains
    !> The Jacobian of the map, dx/du x dx/dv [L^2], from the derivatives of the patch of map_point; not positive where the block is
    !> folded.
    pure real(wp) function map_jacobian(map, u, v)
-      type(block_map_t), intent(in) :: map
-      real(wp), intent(in) :: u, v
+      type(block_map_t), intent(in) :: map !< corners and centres are read
+      real(wp), intent(in) :: u, v         !< 0..1 along BOTTOM; along LEFT
       real(wp) :: along(2), across(2)
 
       associate (c => map%corners)

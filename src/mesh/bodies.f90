@@ -16,8 +16,8 @@ module atrito_bodies
    integer(ip), parameter :: MOVES_RIGIDLY = -1_ip
 
    type :: body_t
-      character(len=:), allocatable :: name
-      integer(ip), allocatable :: elements(:)
+      character(len=:), allocatable :: name    !< for messages and tables
+      integer(ip), allocatable :: elements(:)  !< places in the mesh, ascending; none of a rigid body
       integer(ip), allocatable :: nodes(:)     !< after number_equations in the order of their equations
       integer(ip) :: n = 0                     !< equations
       integer(ip) :: n_retained = 0                !< the last ones: the free dofs of the contact nodes
@@ -33,9 +33,9 @@ module atrito_bodies
    end type body_t
 
    type :: bodies_t
-      integer(ip) :: n = 0
+      integer(ip) :: n = 0                                  !< bodies, the rigid ones among them
       integer(ip) :: n_rigid = 0                            !< the last ones are rigid
-      type(body_t), allocatable :: list(:)
+      type(body_t), allocatable :: list(:)                  !< (n), the elastic ones first
       integer(ip), allocatable :: of_node(:), of_element(:) !< body of a node (0: in no element) and of an element
       integer(ip), allocatable :: equation(:, :)            !< (2, n_nodes): number within the body; 0 prescribed or unused;
       !< MOVES_RIGIDLY: of a rigid body, none of its own, but a motion has a part there
@@ -50,8 +50,8 @@ contains
 
    !> Finds the connected components of the elements.
    subroutine find_bodies(mesh, bodies)
-      type(mesh_t), intent(in) :: mesh
-      type(bodies_t), intent(out) :: bodies
+      type(mesh_t), intent(in) :: mesh      !< elements and their nodes are read
+      type(bodies_t), intent(out) :: bodies !< elastic ones, without names, equations and motions
       integer(ip), allocatable :: component(:), number(:), first(:), member(:)
       integer(ip) :: n_components, e, i
 
@@ -117,12 +117,12 @@ contains
    !> stiffness on the contact line. The others are ordered so that the profile is small. A solver with an order of its own does not
    !> need that: without `by_profile` they stay in the order they have.
    subroutine number_equations(mesh, bodies, i_body, held, contact_nodes, by_profile)
-      type(mesh_t), intent(in) :: mesh
-      type(bodies_t), intent(inout) :: bodies
-      integer(ip), intent(in) :: i_body
+      type(mesh_t), intent(in) :: mesh              !< nodes of its elements are read
+      type(bodies_t), intent(inout) :: bodies       !< the body and its rows of `equation` are changed
+      integer(ip), intent(in) :: i_body             !< place in the list
       logical, intent(in) :: held(:, :)             !< (2, n_nodes): prescribed dofs
       integer(ip), intent(in) :: contact_nodes(:)   !< of this body, each once
-      logical, intent(in) :: by_profile
+      logical, intent(in) :: by_profile             !< the numbers are to make a small profile
       integer(ip) :: i, dof, node
 
       associate (body => bodies%list(i_body))
@@ -180,10 +180,10 @@ contains
    !> equations follow those of the part before it: last(p) is the number of equations of the parts 1 to p. Retained equations keep
    !> their numbers, which are the last ones of the body.
    subroutine order_by_dissection(mesh, bodies, i_body, elimination)
-      type(mesh_t), intent(in) :: mesh
-      type(bodies_t), intent(in) :: bodies
-      integer(ip), intent(in) :: i_body
-      type(elimination_t), intent(out) :: elimination
+      type(mesh_t), intent(in) :: mesh                !< elements and places of the nodes are read
+      type(bodies_t), intent(in) :: bodies            !< equations numbered by number_equations
+      integer(ip), intent(in) :: i_body               !< place in the list
+      type(elimination_t), intent(out) :: elimination !< order of the body's equations; `text` says how
       type(dissection_t) :: parts
       integer(ip) :: dof, i, k, n, p
 
@@ -236,8 +236,8 @@ contains
    !> columns; so does each motion that strains the body, as that along the radius of a body of revolution does. What is left free
    !> is the null space of the matrix. Its basis is reduced to the simplest one, so that a motion can be named.
    subroutine find_rigid_modes(mesh, body, held)
-      type(mesh_t), intent(in) :: mesh
-      type(body_t), intent(inout) :: body
+      type(mesh_t), intent(in) :: mesh              !< places of the nodes, and states of the elements
+      type(body_t), intent(inout) :: body           !< `modes` is set; centre and size are known
       logical, intent(in) :: held(:, :)             !< (2, n_nodes)
       real(wp), allocatable :: rows(:, :)
       real(wp), parameter :: UNIT(3, 3) = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [3, 3])
@@ -311,7 +311,7 @@ contains
 
    !> Displacement of a rigid mode at a place, along a dof; dimensionless.
    pure real(wp) function mode_at(body, mode, x, dof) result(u)
-      type(body_t), intent(in) :: body
+      type(body_t), intent(in) :: body              !< its centre and its size are read
       real(wp), intent(in) :: mode(3)               !< a column of body%modes
       real(wp), intent(in) :: x(2)                  !< [L]
       integer(ip), intent(in) :: dof                !< 1 or 2
@@ -325,9 +325,9 @@ contains
 
    !> Equation numbers of an element's dofs (u1, u2 of its first node, of its second, ...); 0 prescribed.
    pure function element_equations(mesh, bodies, element) result(equations)
-      type(mesh_t), intent(in) :: mesh
-      type(bodies_t), intent(in) :: bodies
-      integer(ip), intent(in) :: element
+      type(mesh_t), intent(in) :: mesh     !< nodes of the element are read
+      type(bodies_t), intent(in) :: bodies !< equations numbered
+      integer(ip), intent(in) :: element   !< place in the mesh
       integer(ip) :: equations(2*mesh%shape(element)), k
 
       do k = 1, mesh%shape(element)

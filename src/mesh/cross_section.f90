@@ -15,7 +15,7 @@ module atrito_cross_section
    public :: cross_section_t, find_cross_section
 
    type :: cross_section_t
-      type(cut_line_t) :: line
+      type(cut_line_t) :: line                      !< through the two points of the cut
       real(wp) :: middle(2) = 0.0_wp                !< of what the line has of the bodies [L]
       real(wp) :: length = 0.0_wp                   !< of that [L]
       integer(ip), allocatable :: shared(:)         !< nodes of elements behind and of elements ahead
@@ -32,13 +32,13 @@ contains
 
    !> The cross-section along a cut, and all crossings of its line. Without one that is taken the section is empty.
    pure subroutine find_cross_section(mesh, around, of_element, ends, wanted, section, crossings)
-      type(mesh_t), intent(in) :: mesh
-      type(node_elements_t), intent(in) :: around
-      integer(ip), intent(in) :: of_element(:)      !< body of each element
-      real(wp), intent(in) :: ends(2, 2)            !< of the cut, two points that differ [L]
-      logical, intent(in) :: wanted(:)              !< elements: crossings without one of them do not count
-      type(cross_section_t), intent(out) :: section
-      type(crossing_t), allocatable, intent(out) :: crossings(:)
+      type(mesh_t), intent(in) :: mesh                           !< nodes and elements are read
+      type(node_elements_t), intent(in) :: around                !< elements round each node of mesh
+      integer(ip), intent(in) :: of_element(:)                   !< body of each element
+      real(wp), intent(in) :: ends(2, 2)                         !< of the cut, two points that differ [L]
+      logical, intent(in) :: wanted(:)                           !< elements: crossings without one of them do not count
+      type(cross_section_t), intent(out) :: section              !< parts of the crossings that are taken
+      type(crossing_t), allocatable, intent(out) :: crossings(:) !< all along the line, with what tells of each
       type(piece_t), allocatable :: pieces(:)
       real(wp), allocatable :: place(:), weight(:)  ! of each crossing
       integer(ip) :: i

@@ -32,8 +32,8 @@ module atrito_crossings
 
    !> What the line has of an element.
    type :: piece_t
-      integer(ip) :: kind = INSIDE
-      integer(ip) :: element = 0
+      integer(ip) :: kind = INSIDE                  !< INSIDE, EDGE_BEHIND or EDGE_AHEAD
+      integer(ip) :: element = 0                    !< place in the mesh
       integer(ip) :: face = 0                       !< on the line; 0: none
       logical :: is_split = .false.                 !< the line parts the element
       integer(ip) :: crossing = 0                   !< place in the list of crossings
@@ -42,8 +42,8 @@ module atrito_crossings
 
    !> A stretch of the line within a body.
    type :: crossing_t
-      integer(ip) :: kind = INSIDE
-      integer(ip) :: body = 0
+      integer(ip) :: kind = INSIDE                  !< INSIDE, EDGE_BEHIND or EDGE_AHEAD
+      integer(ip) :: body = 0                       !< place in the list of bodies
       real(wp) :: from = 0.0_wp, to = 0.0_wp        !< along the line [L]
       logical :: is_met = .false.                   !< some of it lies between the two points
       logical :: is_whole = .false.                 !< as good as all of it does
@@ -62,7 +62,7 @@ contains
 
    !> Distance of a point from the line [L]: negative behind it.
    pure real(wp) function height_over(line, x)
-      type(cut_line_t), intent(in) :: line
+      type(cut_line_t), intent(in) :: line          !< its start and its normal are read
       real(wp), intent(in) :: x(2)                  !< [L]
 
       height_over = dot_product(line%normal, x - line%start)
@@ -78,7 +78,7 @@ contains
 
    !> The point of a line at a distance from its start [L].
    pure function point_at(line, place) result(x)
-      type(cut_line_t), intent(in) :: line
+      type(cut_line_t), intent(in) :: line          !< its start and its direction are read
       real(wp), intent(in) :: place                 !< along the line [L]
       real(wp) :: x(2)
 
@@ -87,10 +87,10 @@ contains
 
    !> The nodes on the sides of an element in their order round it, corners and middles.
    pure subroutine outline_of(mesh, element, nodes, n)
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: element
-      integer(ip), intent(out) :: nodes(MOST_OUTLINE)
-      integer(ip), intent(out) :: n
+      type(mesh_t), intent(in) :: mesh                !< nodes of elements are read
+      integer(ip), intent(in) :: element              !< place in the mesh
+      integer(ip), intent(out) :: nodes(MOST_OUTLINE) !< places of the nodes, counter-clockwise, the first n
+      integer(ip), intent(out) :: n                   !< nodes on the sides, 3..8
       integer(ip) :: side
 
       n = 0
@@ -105,9 +105,9 @@ contains
 
    !> On which side of the line an element counts: that of the mean of its corners.
    pure logical function is_ahead(mesh, line, element)
-      type(mesh_t), intent(in) :: mesh
-      type(cut_line_t), intent(in) :: line
-      integer(ip), intent(in) :: element
+      type(mesh_t), intent(in) :: mesh     !< corners of the element are read
+      type(cut_line_t), intent(in) :: line !< start and normal are read
+      integer(ip), intent(in) :: element   !< place in the mesh
       integer(ip) :: k
       real(wp) :: mean
 
@@ -120,8 +120,8 @@ contains
 
    !> Nodes of an element that are no farther from a line are on it [L].
    pure real(wp) function slack_of(mesh, element)
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: element
+      type(mesh_t), intent(in) :: mesh   !< corners of the element are read
+      integer(ip), intent(in) :: element !< place in the mesh
 
       associate (corners => mesh%nodes(:side_count(mesh, element), element))
          slack_of = SLACK*maxval(maxval(mesh%x(:, corners), dim=2) - minval(mesh%x(:, corners), dim=2))
@@ -130,12 +130,12 @@ contains
 
    !> All pieces of the line, however far it goes, and the crossings that they make.
    pure subroutine find_crossings(mesh, around, of_element, line, pieces, crossings)
-      type(mesh_t), intent(in) :: mesh
-      type(node_elements_t), intent(in) :: around
-      integer(ip), intent(in) :: of_element(:)      !< body of each element
-      type(cut_line_t), intent(in) :: line
-      type(piece_t), allocatable, intent(out) :: pieces(:)
-      type(crossing_t), allocatable, intent(out) :: crossings(:)
+      type(mesh_t), intent(in) :: mesh                           !< nodes and elements are read
+      type(node_elements_t), intent(in) :: around                !< elements round each node of mesh
+      integer(ip), intent(in) :: of_element(:)                   !< body of each element
+      type(cut_line_t), intent(in) :: line                       !< between its two points; it is followed beyond them
+      type(piece_t), allocatable, intent(out) :: pieces(:)       !< in the order of the elements
+      type(crossing_t), allocatable, intent(out) :: crossings(:) !< `is_wanted` and `is_taken` are the caller's to set
       type(piece_t), allocatable :: list(:)
       real(wp) :: common, size_of
       integer(ip) :: e, i, n

@@ -24,8 +24,8 @@ module atrito_cut_mesh
 
    !> Pieces of leaves, and the places of their nodes.
    type :: pieces_t
-      integer(ip) :: n = 0
-      integer(ip), allocatable :: leaf(:), root(:)
+      integer(ip) :: n = 0                            !< pieces of all leaves
+      integer(ip), allocatable :: leaf(:), root(:)    !< (n) cell that is cut up; element of the deck
       integer(ip), allocatable :: shape(:)            !< place in SHAPES
       integer(ip), allocatable :: place(:, :, :)      !< (2, MOST_NODES, n)
    end type pieces_t
@@ -36,9 +36,9 @@ contains
    subroutine cut_mesh(mesh, around, trees, fine, refinement)
       type(mesh_t), intent(in) :: mesh               !< of the deck
       type(node_elements_t), intent(in) :: around    !< elements round each node of mesh
-      type(element_trees_t), intent(inout) :: trees
-      type(mesh_t), intent(out) :: fine
-      type(refinement_t), intent(out) :: refinement
+      type(element_trees_t), intent(inout) :: trees  !< `leaf_of` is set
+      type(mesh_t), intent(out) :: fine              !< elements are the pieces, numbered from 1
+      type(refinement_t), intent(out) :: refinement  !< places of new nodes, pieces of each element
       type(pieces_t) :: pieces
       integer(lp), allocatable :: edge_key(:), inner_key(:)
 

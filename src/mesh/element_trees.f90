@@ -41,8 +41,8 @@ module atrito_element_trees
       integer(ip), allocatable :: root(:)             !< element of the deck
       integer(ip), allocatable :: place(:, :, :)      !< (2, 4, cells) of corners, along the sides 1-2 and 1-4 (1-3) of the root
       integer(ip), allocatable :: corner(:, :)        !< (4, cells) vertices; of triangles the third is the newest, the fourth 0
-      integer(ip) :: n_vertices = 0
-      integer(ip) :: n_edges = 0
+      integer(ip) :: n_vertices = 0                   !< nodes of the deck, middles of sides and centres
+      integer(ip) :: n_edges = 0                      !< sides that have been cut
       integer(ip), allocatable :: first_edge(:)       !< of a vertex: to others of greater number; 0: none
       integer(ip), allocatable :: edge_end(:), edge_middle(:), next_edge(:)  !< the other end, the vertex in its middle or 0
       integer(ip), allocatable :: leaf_of(:)          !< leaf of each element of the present mesh, set where that is made
@@ -52,9 +52,9 @@ contains
 
    !> The elements of the deck, none of which is cut.
    pure subroutine begin_trees(mesh, partner, trees)
-      type(mesh_t), intent(in) :: mesh
+      type(mesh_t), intent(in) :: mesh                !< of the deck; its elements become the roots
       integer(ip), intent(in) :: partner(:)           !< of each node: itself, or the node with which it is one vertex
-      type(element_trees_t), intent(out) :: trees
+      type(element_trees_t), intent(out) :: trees     !< a leaf for each element
       integer(ip) :: e, n, i
       real(wp) :: length(4)
 
@@ -126,8 +126,8 @@ contains
 
    !> Cuts some leaves into four, and those that have to be cut with them. Leaves that are too small stay.
    pure subroutine cut_leaves(leaves, trees)
-      integer(ip), intent(in) :: leaves(:)
-      type(element_trees_t), intent(inout) :: trees
+      integer(ip), intent(in) :: leaves(:)          !< cells that are to be cut
+      type(element_trees_t), intent(inout) :: trees !< new cells stand behind the others
       integer(ip) :: i, n, n_edges
 
       do i = 1, size(leaves, kind=ip)
@@ -168,8 +168,8 @@ contains
 
    !> Cuts all leaves, so many times.
    pure subroutine cut_all(times, trees)
-      integer(ip), intent(in) :: times
-      type(element_trees_t), intent(inout) :: trees
+      integer(ip), intent(in) :: times              !< >= 0
+      type(element_trees_t), intent(inout) :: trees !< new cells stand behind the others
       integer(ip) :: i
 
       do i = 1, times
@@ -179,7 +179,7 @@ contains
 
    !> The cells that are not cut.
    pure function list_leaves(trees) result(leaves)
-      type(element_trees_t), intent(in) :: trees
+      type(element_trees_t), intent(in) :: trees !< leaves rise by their places
       integer(ip), allocatable :: leaves(:)
       integer(ip) :: i
 
@@ -188,7 +188,7 @@ contains
 
    !> How many these are.
    pure integer(ip) function count_leaves(trees) result(n)
-      type(element_trees_t), intent(in) :: trees
+      type(element_trees_t), intent(in) :: trees !< cells that are cut are not counted
 
       n = count(trees%first_child(:trees%n) == 0, kind=ip)
    end function count_leaves
@@ -215,8 +215,8 @@ contains
 
    !> Four of one, or two of a triangle, whatever is beside it. One that is cut stays as it is.
    pure subroutine cut_cell(cell, trees)
-      integer(ip), intent(in) :: cell
-      type(element_trees_t), intent(inout) :: trees
+      integer(ip), intent(in) :: cell               !< place in the trees
+      type(element_trees_t), intent(inout) :: trees !< gets the parts, and vertices in the middle of sides
       integer(ip) :: m(5), v(4), p(2, 4), q(2, 5), n, i, root
 
       p = trees%place(:, :, cell)
@@ -244,24 +244,24 @@ contains
 
    !> Corners of a cell, 3 or 4.
    pure integer(ip) function corner_count(trees, cell) result(n)
-      type(element_trees_t), intent(in) :: trees
-      integer(ip), intent(in) :: cell
+      type(element_trees_t), intent(in) :: trees !< corners of the cell are read
+      integer(ip), intent(in) :: cell            !< place in the trees
 
       n = merge(3_ip, 4_ip, trees%corner(4, cell) == 0)
    end function corner_count
 
    !> Into how many a cell is cut.
    pure integer(ip) function part_count(trees, cell) result(n)
-      type(element_trees_t), intent(in) :: trees
-      integer(ip), intent(in) :: cell
+      type(element_trees_t), intent(in) :: trees !< corners of the cell are read
+      integer(ip), intent(in) :: cell            !< place in the trees
 
       n = merge(2_ip, 4_ip, corner_count(trees, cell) == 3)
    end function part_count
 
    !> Whether there is a node in the middle of a side.
    pure logical function is_side_cut(trees, cell, side)
-      type(element_trees_t), intent(in) :: trees
-      integer(ip), intent(in) :: cell, side
+      type(element_trees_t), intent(in) :: trees !< corners and middles are read
+      integer(ip), intent(in) :: cell, side      !< place in the trees; 1..4, or 1..3
 
       is_side_cut = middle_of(trees, trees%corner(side, cell), trees%corner(mod(side, corner_count(trees, cell)) + 1, cell)) > 0
    end function is_side_cut

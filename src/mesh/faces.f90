@@ -13,13 +13,13 @@ module atrito_faces
 
    !> A list of element faces.
    type :: face_list_t
-      integer(ip) :: n = 0
-      integer(ip), allocatable :: element(:), face(:)
+      integer(ip) :: n = 0                            !< faces in use
+      integer(ip), allocatable :: element(:), face(:) !< (n) or more: place in the mesh; 1..4
    end type face_list_t
 
    !> The elements round each node: list(first(i) : first(i+1)-1).
    type :: node_elements_t
-      integer(ip), allocatable :: first(:), list(:)
+      integer(ip), allocatable :: first(:), list(:) !< (nodes + 1); places of elements
    end type node_elements_t
 
    !> What keeps a list of faces from being one chain; 0 where nothing does.
@@ -32,7 +32,7 @@ contains
 
    !> Lists the elements round each node, in linear time.
    function list_node_elements(mesh) result(around)
-      type(mesh_t), intent(in) :: mesh
+      type(mesh_t), intent(in) :: mesh !< elements and their nodes are read
       type(node_elements_t) :: around
 
       call list_holders(mesh%n_nodes, mesh%nodes(:, :mesh%n_elements), around%first, around%list)
@@ -41,10 +41,10 @@ contains
    !> The element that shares a face, and which of its faces that is; 0: none. It joins the same corners the other way round, by the
    !> same middle: two curved faces that close a circle share both corners, but not the middle.
    pure subroutine find_across(mesh, around, element, face, other, other_face)
-      type(mesh_t), intent(in) :: mesh
-      type(node_elements_t), intent(in) :: around
-      integer(ip), intent(in) :: element, face     !< face 1..4
-      integer(ip), intent(out) :: other, other_face
+      type(mesh_t), intent(in) :: mesh              !< nodes of elements are read
+      type(node_elements_t), intent(in) :: around   !< elements round each node of mesh
+      integer(ip), intent(in) :: element, face      !< face 1..4
+      integer(ip), intent(out) :: other, other_face !< place in the mesh; its face, 1..4
       integer(ip) :: k
 
       associate (first => mesh%nodes(face, element), last => mesh%nodes(face_end(mesh, element, face), element))
@@ -59,8 +59,8 @@ contains
 
    !> True when no other element shares the face.
    pure logical function is_outer_face(mesh, around, element, face)
-      type(mesh_t), intent(in) :: mesh
-      type(node_elements_t), intent(in) :: around
+      type(mesh_t), intent(in) :: mesh             !< nodes of elements are read
+      type(node_elements_t), intent(in) :: around  !< elements round each node of mesh
       integer(ip), intent(in) :: element, face     !< face 1..4
       integer(ip) :: other, other_face
 
@@ -70,9 +70,9 @@ contains
 
    !> All outer faces of some elements.
    pure function outer_faces(mesh, around, elements) result(faces_found)
-      type(mesh_t), intent(in) :: mesh
-      type(node_elements_t), intent(in) :: around
-      integer(ip), intent(in) :: elements(:)
+      type(mesh_t), intent(in) :: mesh            !< nodes of elements are read
+      type(node_elements_t), intent(in) :: around !< elements round each node of mesh
+      integer(ip), intent(in) :: elements(:)      !< places in the mesh
       type(face_list_t) :: faces_found
       integer(ip) :: i, face
 
@@ -85,8 +85,8 @@ contains
 
    !> Adds a face to a list; order_chain drops those that stand there twice.
    pure subroutine add_face(list, element, face)
-      type(face_list_t), intent(inout) :: list
-      integer(ip), intent(in) :: element, face
+      type(face_list_t), intent(inout) :: list !< gets longer by one
+      integer(ip), intent(in) :: element, face !< place in the mesh; 1..4
 
       call make_room(list%element, list%n, list%n + 1)
       call make_room(list%face, list%n, list%n + 1)
@@ -102,9 +102,9 @@ contains
    !> chain is the one at whose first node none ends. From it the walk goes on to the face that begins where this one ends, until
    !> there is none, or the first comes again. What has not been met then is no part of the chain. n faces take about n steps.
    pure subroutine order_chain(mesh, list, report)
-      type(mesh_t), intent(in) :: mesh
-      type(face_list_t), intent(inout) :: list
-      type(chain_report_t), intent(out) :: report
+      type(mesh_t), intent(in) :: mesh            !< nodes of the faces are read
+      type(face_list_t), intent(inout) :: list    !< put in order, if the faces are one chain
+      type(chain_report_t), intent(out) :: report !< zeros where they are
       type(id_map_t) :: begins, ends               ! the face that begins or ends at a node: there are few of them in a large mesh
       integer(ip), allocatable :: order(:)
       integer(ip) :: i, k
@@ -135,7 +135,7 @@ contains
 
    !> Faces that are named several times stand in the list once: a pressure would act twice on them.
    pure subroutine drop_repeated(list)
-      type(face_list_t), intent(inout) :: list
+      type(face_list_t), intent(inout) :: list !< each face once, in the order in which they came
       type(id_map_t) :: seen(MOST_SIDES)
       logical, allocatable :: keep(:)
       integer(ip) :: i
@@ -179,8 +179,8 @@ contains
 
    !> Outward unit normal of the straight line between a face's corners: the direction of travel turned by -90 degrees.
    pure function face_normal(mesh, element, face) result(n)
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: element, face
+      type(mesh_t), intent(in) :: mesh         !< coordinates of the corners are read
+      integer(ip), intent(in) :: element, face !< place in the mesh; 1..4
       real(wp) :: n(2), d(2)
 
       d = mesh%x(:, mesh%nodes(face_end(mesh, element, face), element)) - mesh%x(:, mesh%nodes(face, element))

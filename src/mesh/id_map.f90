@@ -14,7 +14,7 @@ module atrito_id_map
    public :: id_map_t, add_id, add_sequence, find_id, is_whole_sequence
 
    type :: id_map_t
-      integer(ip) :: n = 0
+      integer(ip) :: n = 0                                          !< ids that are there
       integer(ip), private :: first_id = 0, first_place = 0         !< of the sequence
       integer(ip), private :: greatest = 0                          !< id of the table
       integer(ip), allocatable, private :: place(:)                 !< of the table, if there is one
@@ -28,10 +28,10 @@ contains
 
    !> Keeps id -> place. An id that is there already keeps its place and `known` is true.
    pure subroutine add_id(map, id, place, known)
-      type(id_map_t), intent(inout) :: map
-      integer(ip), intent(in) :: id       !< > 0
-      integer(ip), intent(in) :: place    !< > 0
-      logical, intent(out) :: known
+      type(id_map_t), intent(inout) :: map !< changed unless the id is known
+      integer(ip), intent(in) :: id        !< > 0
+      integer(ip), intent(in) :: place     !< > 0
+      logical, intent(out) :: known        !< the id was there already
       integer(ip) :: slot
 
       if (.not. allocated(map%place)) then
@@ -57,9 +57,9 @@ contains
 
    !> Keeps first_id -> first_place, first_id + 1 -> first_place + 1, ...; none of the ids may be there yet.
    pure subroutine add_sequence(map, first_id, first_place, n)
-      type(id_map_t), intent(inout) :: map
+      type(id_map_t), intent(inout) :: map               !< gets n ids more
       integer(ip), intent(in) :: first_id, first_place   !< > 0
-      integer(ip), intent(in) :: n
+      integer(ip), intent(in) :: n                       !< ids; < 1: none
       integer(ip) :: i
       logical :: known
 
@@ -76,8 +76,8 @@ contains
 
    !> Place of an id; 0 when it is not there.
    pure integer(ip) function find_id(map, id) result(place)
-      type(id_map_t), intent(in) :: map
-      integer(ip), intent(in) :: id
+      type(id_map_t), intent(in) :: map !< is searched
+      integer(ip), intent(in) :: id     !< the user's number; any number may be asked for
       integer(ip) :: slot
 
       place = 0
@@ -94,8 +94,8 @@ contains
 
    !> All numbers of a range are there, and their places are one after the other; soon known, and false where it would not be.
    pure logical function is_whole_sequence(map, first, last)
-      type(id_map_t), intent(in) :: map
-      integer(ip), intent(in) :: first, last
+      type(id_map_t), intent(in) :: map      !< false where it has a table
+      integer(ip), intent(in) :: first, last !< range of ids, both ends included
 
       is_whole_sequence = first > 0 .and. first <= last .and. .not. allocated(map%place)
       if (is_whole_sequence) is_whole_sequence = is_in_sequence(map, first) .and. is_in_sequence(map, last)

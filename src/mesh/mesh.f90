@@ -15,7 +15,7 @@ module atrito_mesh
    public :: side_count, middle_node, element_coordinates, signed_area, is_revolved, depth_places
 
    type :: mesh_t
-      integer(ip) :: n_nodes = 0, n_elements = 0
+      integer(ip) :: n_nodes = 0, n_elements = 0    !< in use; the arrays may be longer
       integer(ip), allocatable :: node_id(:)        !< the user's numbers
       real(wp), allocatable :: x(:, :)              !< coordinates [L], (2, n_nodes)
       integer(ip), allocatable :: element_id(:)     !< the user's numbers
@@ -23,16 +23,16 @@ module atrito_mesh
       integer(ip), allocatable :: state(:)          !< place in STATES
       real(wp), allocatable :: thickness(:)         !< of the nodes (n_nodes) [L]; allocated where elements are tapered
       integer(ip), allocatable :: nodes(:, :)       !< (MOST_NODES, n_elements): corners counter-clockwise, mid-sides, centre
-      type(id_map_t) :: node_map, element_map
+      type(id_map_t) :: node_map, element_map       !< from the user's numbers to places
    end type mesh_t
 
 contains
 
    !> What the depth of an element goes by at some of its nodes, for depth_at: x1, or their thickness where it is tapered [L].
    pure function depth_places(mesh, state, nodes) result(places)
-      type(mesh_t), intent(in) :: mesh
+      type(mesh_t), intent(in) :: mesh              !< coordinates, or thicknesses where the element is tapered
       integer(ip), intent(in) :: state              !< of the element, place in STATES
-      integer(ip), intent(in) :: nodes(:)
+      integer(ip), intent(in) :: nodes(:)           !< places of some of its nodes
       real(wp) :: places(size(nodes))
       integer(ip) :: k
 
@@ -47,8 +47,8 @@ contains
 
    !> Makes room for nodes and elements that are going to be added: once, not by doubling.
    pure subroutine reserve_mesh(mesh, new_nodes, new_elements)
-      type(mesh_t), intent(inout) :: mesh
-      integer(ip), intent(in) :: new_nodes, new_elements
+      type(mesh_t), intent(inout) :: mesh                !< arrays get longer; what is there stays
+      integer(ip), intent(in) :: new_nodes, new_elements !< that will be added, >= 0
 
       if (.not. allocated(mesh%node_id)) allocate (mesh%node_id(0), mesh%x(2, 0))
       if (.not. allocated(mesh%element_id)) then
@@ -64,10 +64,10 @@ contains
 
    !> Adds a node. known: the id was there already, and nothing is changed.
    pure subroutine add_node(mesh, id, x, known)
-      type(mesh_t), intent(inout) :: mesh
+      type(mesh_t), intent(inout) :: mesh           !< gets one node more, behind the others
       integer(ip), intent(in) :: id                 !< > 0
-      real(wp), intent(in) :: x(2)
-      logical, intent(out) :: known
+      real(wp), intent(in) :: x(2)                  !< coordinates [L]
+      logical, intent(out) :: known                 !< the id was there already
 
       call add_id(mesh%node_map, id, mesh%n_nodes + 1, known)
       if (known) return
@@ -80,11 +80,11 @@ contains
 
    !> Adds an element. known: the id was there already, and nothing is changed.
    pure subroutine add_element(mesh, id, state, nodes, known)
-      type(mesh_t), intent(inout) :: mesh
+      type(mesh_t), intent(inout) :: mesh           !< gets one element more, behind the others
       integer(ip), intent(in) :: id                 !< > 0
       integer(ip), intent(in) :: state              !< place in STATES
       integer(ip), intent(in) :: nodes(:)           !< places of its nodes, as many as its shape has
-      logical, intent(out) :: known
+      logical, intent(out) :: known                 !< the id was there already
       integer(ip) :: e
 
       call add_id(mesh%element_map, id, mesh%n_elements + 1, known)
@@ -102,7 +102,7 @@ contains
 
    !> Adds nodes with the numbers first_id, first_id + 1, ..., none of which is there yet.
    subroutine add_nodes(mesh, first_id, x)
-      type(mesh_t), intent(inout) :: mesh
+      type(mesh_t), intent(inout) :: mesh           !< gets the nodes behind the others
       integer(ip), intent(in) :: first_id           !< > 0
       real(wp), intent(in) :: x(:, :)               !< (2, new nodes) [L]
       integer(ip) :: k, n, before
@@ -123,7 +123,7 @@ contains
    !> Adds the elements of a block, row by row, triangles in twos, with the numbers first_id, first_id + 1, ..., none of
    !> which is there yet.
    subroutine add_block(mesh, first_id, state, shape, nodes)
-      type(mesh_t), intent(inout) :: mesh
+      type(mesh_t), intent(inout) :: mesh           !< gets the elements behind the others
       integer(ip), intent(in) :: first_id           !< > 0
       integer(ip), intent(in) :: state              !< place in STATES
       integer(ip), intent(in) :: shape              !< place in SHAPES
@@ -161,7 +161,7 @@ contains
 
    !> Gives back the room that was kept for growing; to be called when the mesh is complete.
    pure subroutine trim_mesh(mesh)
-      type(mesh_t), intent(inout) :: mesh
+      type(mesh_t), intent(inout) :: mesh !< arrays become as long as they need to be
 
       call reserve_mesh(mesh, 0_ip, 0_ip)
       if (size(mesh%node_id) > mesh%n_nodes) call resize_nodes(mesh, mesh%n_nodes)
@@ -188,23 +188,23 @@ contains
 
    !> Place of a node by the user's number; 0 when there is none.
    pure integer(ip) function find_node(mesh, id)
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: id
+      type(mesh_t), intent(in) :: mesh !< its map of node numbers is read
+      integer(ip), intent(in) :: id    !< the user's number
 
       find_node = find_id(mesh%node_map, id)
    end function find_node
 
    !> Place of an element by the user's number; 0 when there is none.
    pure integer(ip) function find_element(mesh, id)
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: id
+      type(mesh_t), intent(in) :: mesh !< its map of element numbers is read
+      integer(ip), intent(in) :: id    !< the user's number
 
       find_element = find_id(mesh%element_map, id)
    end function find_element
 
    !> Nodes of a face in the direction of travel (counter-clockwise round the element): first, last, and middle if there is one.
    pure function face_nodes(mesh, element, face) result(nodes)
-      type(mesh_t), intent(in) :: mesh
+      type(mesh_t), intent(in) :: mesh              !< nodes of the element are read
       integer(ip), intent(in) :: element, face      !< face 1..4
       integer(ip), allocatable :: nodes(:)
 
@@ -214,7 +214,7 @@ contains
 
    !> Whether the elements are the section of a body of revolution: all are, or none.
    pure logical function is_revolved(mesh)
-      type(mesh_t), intent(in) :: mesh
+      type(mesh_t), intent(in) :: mesh !< the state of its first element is read
 
       is_revolved = .false.
       if (mesh%n_elements > 0) is_revolved = STATES(mesh%state(1))%has_hoop
@@ -222,24 +222,24 @@ contains
 
    !> Faces of an element, and its corners.
    pure integer(ip) function side_count(mesh, element)
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: element
+      type(mesh_t), intent(in) :: mesh   !< shape of the element is read
+      integer(ip), intent(in) :: element !< place in the mesh
 
       side_count = CORNERS_OF(mesh%shape(element))
    end function side_count
 
    !> Local corner at which a face ends; it begins at the corner of its own number.
    pure integer(ip) function face_end(mesh, element, face)
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: element, face
+      type(mesh_t), intent(in) :: mesh         !< shape of the element is read
+      integer(ip), intent(in) :: element, face !< place in the mesh; 1..4
 
       face_end = mod(face, side_count(mesh, element)) + 1
    end function face_end
 
    !> The node in the middle of a face; 0 where there is none.
    pure integer(ip) function middle_node(mesh, element, face)
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: element, face
+      type(mesh_t), intent(in) :: mesh         !< nodes of the element are read
+      integer(ip), intent(in) :: element, face !< place in the mesh; 1..4
 
       associate (shape => SHAPES(mesh%shape(element)))
          middle_node = 0
@@ -249,8 +249,8 @@ contains
 
    !> The side of an element from one corner to another, with this node in its middle (0: none); 0: the element has none.
    pure integer(ip) function side_between(mesh, element, from, to, middle) result(side)
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: element, from, to
+      type(mesh_t), intent(in) :: mesh              !< nodes of the element are read
+      integer(ip), intent(in) :: element, from, to  !< place in the mesh; places of the two corners
       integer(ip), intent(in), optional :: middle   !< left out: any or none
 
       do side = 1, side_count(mesh, element)
@@ -264,7 +264,7 @@ contains
    !> The nodes of an element from their square of 2 x 2 or 3 x 3: corners counter-clockwise, mid-sides, centre.
    pure function nodes_of_square(shape, square) result(nodes)
       integer(ip), intent(in) :: shape              !< place in SHAPES
-      integer(ip), intent(in) :: square(:, :)
+      integer(ip), intent(in) :: square(:, :)       !< (2, 2) or (3, 3): place of the node at (i, j)
       integer(ip) :: nodes(shape)
       integer(ip) :: n
 
@@ -283,15 +283,16 @@ contains
 
    !> Whether a place of the grid of nodes of such elements, from 0 at a corner, has none: the middle of an element of eight nodes.
    pure logical function is_hollow(shape, i, j)
-      integer(ip), intent(in) :: shape, i, j
+      integer(ip), intent(in) :: shape !< place in SHAPES
+      integer(ip), intent(in) :: i, j  !< intervals from the corner, >= 0
 
       is_hollow = SHAPES(shape)%hollow .and. mod(i, 2_ip) == 1 .and. mod(j, 2_ip) == 1
    end function is_hollow
 
    !> Coordinates [L] of an element's nodes, (2, shape).
    pure function element_coordinates(mesh, element) result(x)
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: element
+      type(mesh_t), intent(in) :: mesh   !< coordinates and nodes of the element are read
+      integer(ip), intent(in) :: element !< place in the mesh
       real(wp) :: x(2, mesh%shape(element))
 
       x = mesh%x(:, mesh%nodes(:mesh%shape(element), element))
@@ -299,8 +300,8 @@ contains
 
    !> Signed area [L^2] of the polygon of an element's corners, positive when they run counter-clockwise.
    pure real(wp) function signed_area(mesh, element) result(area)
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: element
+      type(mesh_t), intent(in) :: mesh   !< coordinates of the corners are read
+      integer(ip), intent(in) :: element !< place in the mesh
       real(wp) :: d(2), e(2)
 
       d = mesh%x(:, mesh%nodes(3, element)) - mesh%x(:, mesh%nodes(1, element))

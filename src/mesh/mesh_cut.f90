@@ -22,10 +22,10 @@ contains
 
    !> What a cut along faces changes; outer_face and tip say what keeps it from being one.
    pure subroutine find_cut(mesh, around, faces, cut)
-      type(mesh_t), intent(in) :: mesh
-      type(node_elements_t), intent(in) :: around
-      type(face_list_t), intent(in) :: faces
-      type(mesh_cut_t), intent(out) :: cut
+      type(mesh_t), intent(in) :: mesh            !< is not changed yet
+      type(node_elements_t), intent(in) :: around !< elements round each node of mesh
+      type(face_list_t), intent(in) :: faces      !< where the mesh is cut; their elements get the new nodes
+      type(mesh_cut_t), intent(out) :: cut        !< a cut where outer_face and tip are 0
       integer(ip) :: i
 
       allocate (cut%node(0), cut%change(3, 0), cut%other(faces%n), cut%other_face(faces%n))
@@ -109,8 +109,8 @@ contains
 
    !> Cuts. The new nodes come behind the others, in the order of cut%node, with the numbers that follow the greatest.
    subroutine cut_mesh(cut, mesh)
-      type(mesh_cut_t), intent(in) :: cut
-      type(mesh_t), intent(inout) :: mesh
+      type(mesh_cut_t), intent(in) :: cut !< from find_cut, without a fault
+      type(mesh_t), intent(inout) :: mesh !< gets the nodes; some elements get them for their own
       integer(ip) :: k, before
 
       before = mesh%n_nodes

@@ -27,12 +27,12 @@ contains
 
    !> Of a name of both a node set and an element set the nodes are those of the node set.
    pure subroutine find_named_nodes(mesh, node_sets, element_sets, name, nodes, found, fault)
-      type(mesh_t), intent(in) :: mesh
-      type(set_list_t), intent(in) :: node_sets, element_sets
-      character(len=*), intent(in) :: name
-      integer(ip), allocatable, intent(out) :: nodes(:)      !< places
-      logical, intent(out) :: found
-      character(len=:), allocatable, intent(out) :: fault    !< allocated: what a corner or middle that is named lacks
+      type(mesh_t), intent(in) :: mesh                        !< places of nodes, and nodes of elements
+      type(set_list_t), intent(in) :: node_sets, element_sets !< of the scene as far as it is read
+      character(len=*), intent(in) :: name                    !< as the user wrote it, without case
+      integer(ip), allocatable, intent(out) :: nodes(:)       !< places
+      logical, intent(out) :: found                           !< the name means some nodes
+      character(len=:), allocatable, intent(out) :: fault     !< allocated: what a corner or middle that is named lacks
       integer(ip) :: i
 
       i = find_set(node_sets, name)
@@ -53,7 +53,7 @@ contains
 
    !> All nodes of some elements, rising.
    pure function nodes_of_elements(mesh, elements) result(nodes)
-      type(mesh_t), intent(in) :: mesh
+      type(mesh_t), intent(in) :: mesh                       !< nodes of the elements are read
       integer(ip), intent(in) :: elements(:)                 !< places
       integer(ip), allocatable :: nodes(:)
       integer(ip) :: i, n
@@ -111,8 +111,8 @@ contains
 
    !> The block whose corner, middle or centre a name may be, and which of them.
    pure subroutine part_place_name(name, block, place)
-      character(len=*), intent(in) :: name
-      character(len=:), allocatable, intent(out) :: block
+      character(len=*), intent(in) :: name                   !< as the user wrote it
+      character(len=:), allocatable, intent(out) :: block    !< name of the block; '' where there is none
       integer(ip), intent(out) :: place                      !< in PLACES; 0: none
 
       block = ''

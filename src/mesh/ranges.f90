@@ -24,7 +24,7 @@ contains
 
    !> Appends first, first + 1, ..., last; those that are there already are passed over.
    pure subroutine add_range(ranges, first, last)
-      type(ranges_t), intent(inout) :: ranges
+      type(ranges_t), intent(inout) :: ranges            !< gets them behind the others
       integer(ip), intent(in) :: first, last             !< >= first
 
       if (ranges%n > 0) then
@@ -47,8 +47,8 @@ contains
 
    !> Appends numbers.
    pure subroutine add_numbers(ranges, numbers)
-      type(ranges_t), intent(inout) :: ranges
-      integer(ip), intent(in) :: numbers(:)
+      type(ranges_t), intent(inout) :: ranges !< gets them behind the others
+      integer(ip), intent(in) :: numbers(:)   !< in any order, also repeated
       integer(ip) :: i
 
       do i = 1, size(numbers, kind=ip)
@@ -58,8 +58,8 @@ contains
 
    !> Appends the numbers of another list.
    pure subroutine add_ranges(ranges, others)
-      type(ranges_t), intent(inout) :: ranges
-      type(ranges_t), intent(in) :: others
+      type(ranges_t), intent(inout) :: ranges !< gets them behind the others
+      type(ranges_t), intent(in) :: others    !< is not changed
       integer(ip) :: i
 
       do i = 1, others%n
@@ -79,7 +79,7 @@ contains
 
    !> All numbers, one by one.
    pure function numbers_in(ranges) result(numbers)
-      type(ranges_t), intent(in) :: ranges
+      type(ranges_t), intent(in) :: ranges !< in the order in which they came
       integer(ip), allocatable :: numbers(:)
       type(ranges_t) :: runs
       integer(ip) :: i, k, n
@@ -97,7 +97,7 @@ contains
 
    !> Those numbers that stand in a rising list, too: of a few of them nobody goes through all.
    pure function numbers_among(ranges, some) result(numbers)
-      type(ranges_t), intent(in) :: ranges
+      type(ranges_t), intent(in) :: ranges               !< in any order
       integer(ip), intent(in) :: some(:)                 !< rising
       integer(ip), allocatable :: numbers(:)
       type(ranges_t) :: runs, found
@@ -117,7 +117,7 @@ contains
 
    !> How many numbers there are.
    pure integer(ip) function count_numbers(ranges) result(n)
-      type(ranges_t), intent(in) :: ranges
+      type(ranges_t), intent(in) :: ranges !< each number is counted once
       type(ranges_t) :: runs
 
       runs = cleaned(ranges)
@@ -127,7 +127,7 @@ contains
 
    !> The number that came first; 0 of an empty list.
    pure integer(ip) function first_number(ranges) result(number)
-      type(ranges_t), intent(in) :: ranges
+      type(ranges_t), intent(in) :: ranges !< may be empty
 
       number = 0
       if (ranges%n > 0) number = ranges%first(1)

@@ -12,8 +12,8 @@ contains
 
    !> The places in the fine mesh of some elements of the coarse one.
    pure function fine_elements(refinement, members) result(pieces)
-      type(refinement_t), intent(in) :: refinement
-      integer(ip), intent(in) :: members(:)
+      type(refinement_t), intent(in) :: refinement !< pieces of each element
+      integer(ip), intent(in) :: members(:)        !< places in the coarse mesh
       integer(ip), allocatable :: pieces(:)
       integer(ip) :: first(size(members)), last(size(members)), i, k, n
 
@@ -36,7 +36,7 @@ contains
 
    !> The face of a fine element that is part of its parent's face of a number; 0: none is.
    pure integer(ip) function face_on_side(refinement, element, face) result(own)
-      type(refinement_t), intent(in) :: refinement
+      type(refinement_t), intent(in) :: refinement   !< made for this fine mesh
       integer(ip), intent(in) :: element             !< place in the fine mesh
       integer(ip), intent(in) :: face                !< of its parent, 1..4
 
@@ -77,8 +77,8 @@ contains
    !> The nodes of the fine mesh that belong to a set of nodes of the coarse one: its members, what lies on an edge all of whose
    !> nodes are members, and what lies inside an element all of whose nodes are members.
    pure function fine_nodes(mesh, refinement, members) result(fine)
-      type(mesh_t), intent(in) :: mesh
-      type(refinement_t), intent(in) :: refinement
+      type(mesh_t), intent(in) :: mesh               !< coarse
+      type(refinement_t), intent(in) :: refinement   !< made from `mesh`
       integer(ip), intent(in) :: members(:)          !< places in the coarse mesh
       integer(ip), allocatable :: fine(:)
       logical, allocatable :: chosen(:)
@@ -111,9 +111,9 @@ contains
 
    !> Adds to nodes of the fine mesh what it has on an edge all of whose nodes are there, and inside an element all of whose are.
    pure subroutine add_nodes_between(fine, refinement, nodes)
-      type(mesh_t), intent(in) :: fine
-      type(refinement_t), intent(in) :: refinement
-      integer(ip), allocatable, intent(inout) :: nodes(:)
+      type(mesh_t), intent(in) :: fine                    !< nodes of the fine elements are read
+      type(refinement_t), intent(in) :: refinement        !< made for this fine mesh
+      integer(ip), allocatable, intent(inout) :: nodes(:) !< places in the fine mesh, each once; new ones behind
       logical, allocatable :: chosen(:)
       integer(ip), allocatable :: inner(:)
       integer(ip) :: e, i, n

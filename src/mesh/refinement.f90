@@ -43,7 +43,7 @@ contains
 
    !> Nodes of the refined mesh, before it is made.
    pure integer(lp) function count_fine_nodes(mesh, pieces, shape) result(n)
-      type(mesh_t), intent(in) :: mesh
+      type(mesh_t), intent(in) :: mesh              !< coarse
       integer(ip), intent(in) :: pieces             !< along an edge, >= 1
       integer(ip), intent(in) :: shape              !< of all fine elements; 0: that of their parents
       integer(lp) :: intervals
@@ -59,12 +59,12 @@ contains
 
    !> Refines a mesh.
    pure subroutine refine_mesh(mesh, around, pieces, shape, fine, refinement)
-      type(mesh_t), intent(in) :: mesh
+      type(mesh_t), intent(in) :: mesh              !< coarse
       type(node_elements_t), intent(in) :: around   !< elements round each node of mesh
       integer(ip), intent(in) :: pieces             !< 1, 2, 4, 8, ...: of each edge; even where nine-node elements become four-node
       integer(ip), intent(in) :: shape              !< of all fine elements; 0: that of their parents
-      type(mesh_t), intent(out) :: fine
-      type(refinement_t), intent(out) :: refinement
+      type(mesh_t), intent(out) :: fine             !< its elements are the pieces
+      type(refinement_t), intent(out) :: refinement !< edges and new nodes of the coarse mesh
 
       refinement%shape = shape
       refinement%pieces = pieces
@@ -76,9 +76,9 @@ contains
 
    !> What a refinement says of the coarse mesh: its edges, each once; elements of different order do not share theirs.
    pure subroutine begin_refinement(mesh, around, refinement)
-      type(mesh_t), intent(in) :: mesh
-      type(node_elements_t), intent(in) :: around   !< elements round each node of mesh
-      type(refinement_t), intent(inout) :: refinement
+      type(mesh_t), intent(in) :: mesh                !< coarse
+      type(node_elements_t), intent(in) :: around     !< elements round each node of mesh
+      type(refinement_t), intent(inout) :: refinement !< edges are set, places of new nodes are not
       integer(ip) :: e, face, n, other, other_face
 
       refinement%n_nodes = mesh%n_nodes
@@ -109,9 +109,9 @@ contains
 
    !> Coordinates and numbers of the nodes: new numbers follow the greatest.
    pure subroutine place_nodes(mesh, refinement, fine)
-      type(mesh_t), intent(in) :: mesh
-      type(refinement_t), intent(in) :: refinement
-      type(mesh_t), intent(inout) :: fine
+      type(mesh_t), intent(in) :: mesh             !< coarse
+      type(refinement_t), intent(in) :: refinement !< edge_first and inner_first are known
+      type(mesh_t), intent(inout) :: fine          !< gets nodes; it has none before
       integer(ip), allocatable :: grid(:, :)
       integer(ip) :: n, e, i, greatest
       logical :: known
@@ -192,17 +192,17 @@ contains
 
    !> Whether an element has a node in its centre.
    pure logical function has_centre(mesh, element)
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: element
+      type(mesh_t), intent(in) :: mesh   !< shapes are read
+      integer(ip), intent(in) :: element !< place in the mesh
 
       has_centre = mesh%shape(element) > 2*side_count(mesh, element)
    end function has_centre
 
    !> Whether the node in the middle of an element belongs to none of its pieces: nine nodes become eight.
    pure logical function drops_centre(mesh, refinement, element)
-      type(mesh_t), intent(in) :: mesh
-      type(refinement_t), intent(in) :: refinement
-      integer(ip), intent(in) :: element
+      type(mesh_t), intent(in) :: mesh             !< coarse
+      type(refinement_t), intent(in) :: refinement !< made from `mesh`
+      integer(ip), intent(in) :: element           !< place in the coarse mesh
 
       if (allocated(refinement%drops)) then
          drops_centre = refinement%drops(element)
@@ -216,10 +216,10 @@ contains
    !>
    !> An edge is mapped by its own nodes alone, hence alike from both sides.
    pure subroutine map_element(mesh, refinement, element, x, grid)
-      type(mesh_t), intent(in) :: mesh
-      type(refinement_t), intent(in) :: refinement
-      integer(ip), intent(in) :: element
-      real(wp), intent(inout) :: x(:, :)
+      type(mesh_t), intent(in) :: mesh                        !< coarse
+      type(refinement_t), intent(in) :: refinement            !< edge_first and inner_first are known
+      integer(ip), intent(in) :: element                      !< place in the coarse mesh
+      real(wp), intent(inout) :: x(:, :)                      !< (2, fine nodes) [L]; those of this element are set
       integer(ip), allocatable, intent(inout) :: grid(:, :)   !< room
       integer(ip) :: i, j, k, n
 
@@ -293,7 +293,7 @@ contains
 
    !> Place 0..1 of a new node on its coarse edge, from the edge's first node.
    pure real(wp) function edge_place(refinement, edge, node) result(t)
-      type(refinement_t), intent(in) :: refinement
+      type(refinement_t), intent(in) :: refinement   !< made from a coarse mesh that has this edge
       integer(ip), intent(in) :: edge, node          !< node: edge_first(edge) .. edge_first(edge + 1) - 1
       integer(ip) :: position, intervals
 
@@ -453,7 +453,7 @@ contains
 
    !> Whether the mesh is a refined one.
    pure logical function is_refined(refinement)
-      type(refinement_t), intent(in) :: refinement
+      type(refinement_t), intent(in) :: refinement !< not made, as a scene has it that is not refined
 
       is_refined = refinement%n_elements > 0
    end function is_refined

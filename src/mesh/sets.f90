@@ -8,7 +8,7 @@ module atrito_sets
    public :: set_t, set_list_t, set_count, find_set, grow_set, members_of, member_count, replace_members
 
    type :: set_t
-      character(len=:), allocatable :: name
+      character(len=:), allocatable :: name    !< as it was written first
       type(ranges_t) :: members                !< places, not ids
    end type set_t
 
@@ -28,22 +28,22 @@ contains
 
    !> How many sets a list has.
    pure integer(ip) function set_count(list) result(n)
-      type(set_list_t), intent(in) :: list
+      type(set_list_t), intent(in) :: list !< may be empty
 
       n = list%names%n
    end function set_count
 
    !> Index of a set by name, without case; 0 when there is none.
    pure integer(ip) function find_set(list, name) result(i)
-      type(set_list_t), intent(in) :: list
-      character(len=*), intent(in) :: name
+      type(set_list_t), intent(in) :: list !< searched by hash
+      character(len=*), intent(in) :: name !< as written, in either case
 
       i = find_name(list%names, name)
    end function find_set
 
    !> The members of a set, one by one.
    pure function members_of(set) result(members)
-      type(set_t), intent(in) :: set
+      type(set_t), intent(in) :: set !< places of nodes or of elements
       integer(ip), allocatable :: members(:)
 
       members = numbers_in(set%members)
@@ -51,24 +51,24 @@ contains
 
    !> How many numbers a set has, each counted once.
    pure integer(ip) function member_count(set) result(n)
-      type(set_t), intent(in) :: set
+      type(set_t), intent(in) :: set !< places of nodes or of elements
 
       n = count_numbers(set%members)
    end function member_count
 
    !> Gives a set other members (places of nodes or elements), in any order.
    pure subroutine replace_members(set, members)
-      type(set_t), intent(inout) :: set
-      integer(ip), intent(in) :: members(:)
+      type(set_t), intent(inout) :: set     !< keeps its name
+      integer(ip), intent(in) :: members(:) !< places; may be repeated
 
       set%members = ranges_t()
       call add_numbers(set%members, members)
    end subroutine replace_members
 
    pure subroutine grow_by_numbers(list, name, members)
-      type(set_list_t), intent(inout) :: list
-      character(len=*), intent(in) :: name
-      integer(ip), intent(in) :: members(:)
+      type(set_list_t), intent(inout) :: list !< gets a set, or a longer one
+      character(len=*), intent(in) :: name    !< in either case
+      integer(ip), intent(in) :: members(:)   !< places; those that are there already are passed over
       integer(ip) :: i
 
       call find_or_append(list, name, i)
@@ -76,9 +76,9 @@ contains
    end subroutine grow_by_numbers
 
    pure subroutine grow_by_ranges(list, name, members)
-      type(set_list_t), intent(inout) :: list
-      character(len=*), intent(in) :: name
-      type(ranges_t), intent(in) :: members
+      type(set_list_t), intent(inout) :: list !< gets a set, or a longer one
+      character(len=*), intent(in) :: name    !< in either case
+      type(ranges_t), intent(in) :: members   !< places; those that are there already are passed over
       integer(ip) :: i
 
       call find_or_append(list, name, i)

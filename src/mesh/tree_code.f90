@@ -14,7 +14,7 @@ contains
 
    !> The word of an element that is cut.
    pure function code_of_tree(trees, root) result(code)
-      type(element_trees_t), intent(in) :: trees
+      type(element_trees_t), intent(in) :: trees      !< children of cells are read
       integer(ip), intent(in) :: root                 !< element of the deck
       character(len=:), allocatable :: code
       type(growing_text_t) :: text
@@ -43,9 +43,9 @@ contains
 
    !> Cuts an element as a word says; what is cut already stays cut. The neighbours are not looked after.
    pure subroutine take_code(root, code, trees)
-      integer(ip), intent(in) :: root
+      integer(ip), intent(in) :: root                 !< element of the deck
       character(len=*), intent(in) :: code            !< is_code
-      type(element_trees_t), intent(inout) :: trees
+      type(element_trees_t), intent(inout) :: trees   !< gets the cells that the word asks for
       integer :: position
 
       position = 0
@@ -73,7 +73,7 @@ contains
 
    !> Whether a word is one of these.
    pure logical function is_code(word)
-      character(len=*), intent(in) :: word
+      character(len=*), intent(in) :: word !< as the user wrote it
 
       is_code = len(word) > 0 .and. verify(word, 'CLcl') == 0
    end function is_code

@@ -13,9 +13,9 @@ contains
    !> The piece k, 0 .. n^2 - 1: its corner at the right angle, in pieces along the sides 1-2 and 1-3, and whether it is turned.
    pure subroutine piece_of_triangle(n, k, place, is_turned)
       integer(ip), intent(in) :: n                  !< pieces along a side
-      integer(ip), intent(in) :: k
+      integer(ip), intent(in) :: k                  !< 0 .. n^2 - 1
       integer(ip), intent(out) :: place(2)          !< of a turned piece (i, j) is the corner opposite to its own first one
-      logical, intent(out) :: is_turned
+      logical, intent(out) :: is_turned             !< by 180 degrees
       integer(ip) :: left, rows
 
       rows = ceiling(sqrt(real(n*n - k, wp)), ip)   ! from this one on: they have rows^2 pieces
@@ -27,10 +27,10 @@ contains
 
    !> The nodes of a piece from its parent's grid: corners counter-clockwise, then mid-sides.
    pure subroutine piece_nodes(grid, degree, place, is_turned, nodes)
-      integer(ip), intent(in) :: grid(0:, 0:)
+      integer(ip), intent(in) :: grid(0:, 0:)       !< (i, j) place of a node, i + j <= n * degree
       integer(ip), intent(in) :: degree             !< of the piece, 1 or 2: intervals of the grid along its side
-      integer(ip), intent(in) :: place(2)
-      logical, intent(in) :: is_turned
+      integer(ip), intent(in) :: place(2)           !< from piece_of_triangle
+      logical, intent(in) :: is_turned              !< from piece_of_triangle
       integer(ip), intent(out) :: nodes(:)          !< (3 or 6)
       integer(ip) :: i, j, way, step
 
@@ -68,7 +68,7 @@ contains
    !> coordinate stays constant to the last bit.
    pure function triangle_point(x, xi) result(point)
       real(wp), intent(in) :: x(:, :)               !< (2, 3 or 6) [L]
-      real(wp), intent(in) :: xi(2)
+      real(wp), intent(in) :: xi(2)                 !< 0..1 each, and their sum
       real(wp) :: point(2)
       real(wp) :: l(3)
       integer(ip) :: k, next
@@ -86,7 +86,7 @@ contains
    !> the sides 1-2 and 2-3 of the square as its faces 1 and 2, the upper one 3-4 and 4-1. They begin at opposite ends of the cut,
    !> so that in a parallelogram one is the other turned by 180 degrees.
    pure function triangles_of_square(square) result(nodes)
-      integer(ip), intent(in) :: square(:, :)
+      integer(ip), intent(in) :: square(:, :) !< (2, 2) or (3, 3): place of the node at (i, j)
       integer(ip) :: nodes(3*(size(square, 1) - 1), 2)
       integer(ip) :: n
 

@@ -18,10 +18,12 @@ contains
 
    !> Numbers the elements as they are listed, and their nodes as they come.
    subroutine compact(elements, nodes, n_nodes_of, x, wanted, mesh)
-      integer(ip), intent(in) :: elements(:), nodes(:, :), n_nodes_of(:)
-      real(wp), intent(in) :: x(:, :)
-      logical, intent(in) :: wanted(:)
-      type(compact_mesh_t), intent(out) :: mesh
+      integer(ip), intent(in) :: elements(:)    !< which, in the order that they get
+      integer(ip), intent(in) :: nodes(:, :)    !< (most nodes, all elements)
+      integer(ip), intent(in) :: n_nodes_of(:)  !< (all elements)
+      real(wp), intent(in) :: x(:, :)           !< (2, all nodes) [L]
+      logical, intent(in) :: wanted(:)          !< (all nodes)
+      type(compact_mesh_t), intent(out) :: mesh !< copies, with numbers from 1
       integer(ip) :: number(size(wanted)), list(size(wanted)), i, k, n, node
 
       mesh%list = [(i, i=1, size(elements, kind=ip))]

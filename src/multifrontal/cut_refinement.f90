@@ -27,12 +27,12 @@ module atrito_cut_refinement
    type :: corner_lists_t
       integer(ip), allocatable :: corner(:, :)   !< (4, all elements) 0: none, from there on
       integer(ip), allocatable :: first(:)       !< (nodes + 1) elements round node i: element(first(i):first(i + 1) - 1)
-      integer(ip), allocatable :: element(:)
+      integer(ip), allocatable :: element(:)     !< one list behind the other, that of node 1 first
    end type corner_lists_t
 
    !> What is known of elements and nodes. Sets that have no element and no free node in common may be cut at the same time.
    type :: sides_of_cut_t
-      type(corner_lists_t), pointer, private :: lists => null()
+      type(corner_lists_t), pointer, private :: lists => null()          !< belongs to the caller
       integer(ip), allocatable :: side(:)        !< (all elements) LOWER_SIDE, UPPER_SIDE
       integer(ip), allocatable, private :: gain(:), next(:), previous(:) !< (all elements)
       logical, allocatable, private :: waits(:), moved(:) !< (all elements)
@@ -41,9 +41,9 @@ module atrito_cut_refinement
 
    !> A set that is refined: elements that wait for their move, by what it saves and by their side, the first of each list.
    type :: queue_t
-      integer(ip) :: head(-CORNERS:CORNERS, 2) = 0
-      integer(ip) :: weight(2) = 0               !< elements of the sides
-      integer(ip) :: least = 0                   !< that each keeps
+      integer(ip) :: head(-CORNERS:CORNERS, 2) = 0 !< element, by gain and side; 0: none
+      integer(ip) :: weight(2) = 0                 !< elements of the sides
+      integer(ip) :: least = 0                     !< that each keeps
    end type queue_t
 
    !> More than the elements round a node.
@@ -59,10 +59,10 @@ contains
 
    !> The corners of some elements, each node once, and of each node the elements whose corner it is.
    subroutine list_corners(elements, nodes, n_nodes_of, n_nodes, lists)
-      integer(ip), intent(in) :: elements(:)
+      integer(ip), intent(in) :: elements(:)                !< of whose corners lists are made; the others have none
       integer(ip), intent(in) :: nodes(:, :), n_nodes_of(:) !< (most nodes, all elements), (all elements)
-      integer(ip), intent(in) :: n_nodes         !< all
-      type(corner_lists_t), intent(out) :: lists
+      integer(ip), intent(in) :: n_nodes                    !< all
+      type(corner_lists_t), intent(out) :: lists            !< corners of elements, elements of nodes
       integer(ip) :: i, k, n, node
 
       allocate (lists%corner(CORNERS, size(n_nodes_of)), source=0_ip)
@@ -82,7 +82,7 @@ contains
    subroutine begin_sides(lists, wanted, sides)
       type(corner_lists_t), intent(in), target :: lists !< stays where it is
       logical, intent(in) :: wanted(:)           !< (nodes) the others do not count
-      type(sides_of_cut_t), intent(out) :: sides
+      type(sides_of_cut_t), intent(out) :: sides        !< every count is zero; `side` is the caller's to fill
       integer :: n
 
       sides%lists => lists
@@ -94,8 +94,8 @@ contains
 
    !> Nodes that do not count any more.
    pure subroutine leave_out(nodes, sides)
-      integer(ip), intent(in) :: nodes(:)
-      type(sides_of_cut_t), intent(inout) :: sides
+      integer(ip), intent(in) :: nodes(:)          !< of a separator, which is taken
+      type(sides_of_cut_t), intent(inout) :: sides !< counts of these nodes are marked
 
       sides%count(nodes) = LEFT_OUT
    end subroutine leave_out
@@ -107,8 +107,8 @@ contains
    !> ends where it began at the worst. The balance is kept by taking from the heavier side where both have an element of the same
    !> gain, and nothing from a side that has queue%least elements left.
    subroutine refine_cut(element, sides)
-      integer(ip), intent(in) :: element(:)      !< of the set, with their sides
-      type(sides_of_cut_t), intent(inout) :: sides
+      integer(ip), intent(in) :: element(:)        !< of the set, with their sides
+      type(sides_of_cut_t), intent(inout) :: sides !< `side` is improved; no other set has these elements
       type(queue_t) :: queue
       integer(ip) :: saved
       integer :: pass

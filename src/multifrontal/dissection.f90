@@ -17,7 +17,7 @@ module atrito_dissection
 
    !> The order of the nodes, and its parts in postorder: each separator after the two parts that it divides.
    type :: dissection_t
-      integer(ip) :: n_nodes = 0
+      integer(ip) :: n_nodes = 0                 !< nodes that are ordered
       integer(ip), allocatable :: order(:)       !< (n_nodes)
       integer(ip) :: n = 0                       !< parts
       integer(ip), allocatable :: last(:)        !< (n or more) last place of each part in the order
@@ -40,14 +40,14 @@ module atrito_dissection
    !> not taken: threads share these lists.
    type :: workspace_t
       integer(ip), pointer :: nodes(:, :) => null(), n_nodes_of(:) => null() !< (most nodes, all elements), (all elements)
-      type(dissection_guide_t), pointer :: guide => null()
-      integer(ip), allocatable :: element(:)
-      real(wp), allocatable :: centre(:, :)      !< (2, elements) [L]
-      real(wp), allocatable :: extent(:, :)      !< (2, all elements) [L] of those in the list
-      logical, allocatable :: taken(:)           !< in the order already, or not wanted there
-      integer(lp), allocatable :: upper_of(:)    !< last cut that had the node in its upper part
-      integer(ip), allocatable :: order(:)       !< each set has its own places there
-      type(sides_of_cut_t) :: sides              !< where cuts are refined
+      type(dissection_guide_t), pointer :: guide => null() !< belongs to the caller
+      integer(ip), allocatable :: element(:)               !< (elements) those of a part stand together
+      real(wp), allocatable :: centre(:, :)                !< (2, elements) [L]
+      real(wp), allocatable :: extent(:, :)                !< (2, all elements) [L] of those in the list
+      logical, allocatable :: taken(:)                     !< in the order already, or not wanted there
+      integer(lp), allocatable :: upper_of(:)              !< last cut that had the node in its upper part
+      integer(ip), allocatable :: order(:)                 !< each set has its own places there
+      type(sides_of_cut_t) :: sides                        !< where cuts are refined
    end type workspace_t
 
    !> Sets of so few nodes, counted with each element, are not cut any more.
@@ -69,13 +69,13 @@ contains
 
    !> Orders the wanted nodes of some elements.
    subroutine dissect(elements, nodes, n_nodes_of, x, wanted, guide, parts)
-      integer(ip), intent(in) :: elements(:)     !< which
-      integer(ip), intent(in), target :: nodes(:, :) !< (most nodes, all elements)
+      integer(ip), intent(in) :: elements(:)                !< which
+      integer(ip), intent(in), target :: nodes(:, :)        !< (most nodes, all elements)
       integer(ip), intent(in), target :: n_nodes_of(:) !< (all elements) nodes of each; the first four or all stand for its corners
-      real(wp), intent(in) :: x(:, :)            !< (2, all nodes) [L]
-      logical, intent(in) :: wanted(:)           !< (all nodes); those that are belong to the elements
-      type(dissection_guide_t), intent(in), target :: guide
-      type(dissection_t), intent(out) :: parts
+      real(wp), intent(in) :: x(:, :)                       !< (2, all nodes) [L]
+      logical, intent(in) :: wanted(:)                      !< (all nodes); those that are belong to the elements
+      type(dissection_guide_t), intent(in), target :: guide !< without halvings and refinement: by the places alone
+      type(dissection_t), intent(out) :: parts              !< order of the wanted nodes
       type(workspace_t) :: work
       integer(ip) :: i, n, root
 
@@ -266,7 +266,7 @@ contains
 
    !> The element that is taken for the i-th of n at equal distances in a list.
    pure integer(ip) function sample_place(i, n, length)
-      integer(ip), intent(in) :: i, n
+      integer(ip), intent(in) :: i, n            !< which sample, 1 .. n, of how many
       integer(ip), intent(in) :: length          !< of the list
 
       sample_place = 1_ip + int((real(i, wp) - 0.5_wp)*real(length, wp)/real(n, wp), ip)

@@ -14,16 +14,16 @@ module atrito_element_clusters
 
    !> A graph of clusters.
    type :: cluster_t
-      integer(ip) :: n = 0
-      integer(ip), allocatable :: of_element(:)  !< (all elements) 0: not in the list
-      integer(ip), allocatable :: weight(:)      !< (n) elements
-      integer(ip), allocatable :: first(:)       !< (n + 1) neighbours: neighbour(first(i):first(i + 1) - 1)
+      integer(ip) :: n = 0                                !< clusters
+      integer(ip), allocatable :: of_element(:)           !< (all elements) 0: not in the list
+      integer(ip), allocatable :: weight(:)               !< (n) elements
+      integer(ip), allocatable :: first(:)                !< (n + 1) neighbours: neighbour(first(i):first(i + 1) - 1)
       integer(ip), allocatable :: neighbour(:), shared(:) !< and the nodes in common
    end type cluster_t
 
    !> The neighbours of a cluster, and what it has in common with each.
    type :: tally_t
-      integer(ip) :: n = 0
+      integer(ip) :: n = 0                       !< clusters in the list
       integer(ip), allocatable :: list(:)        !< (clusters) the first n
       integer(ip), allocatable :: times(:)       !< (clusters) 0: not in the list
    end type tally_t
@@ -32,10 +32,10 @@ contains
 
    !> Joins elements to clusters of 2**n_rounds at most.
    subroutine join_elements(lists, elements, n_rounds, clusters)
-      type(corner_lists_t), intent(in) :: lists
-      integer(ip), intent(in) :: elements(:)
-      integer, intent(in) :: n_rounds
-      type(cluster_t), intent(out) :: clusters
+      type(corner_lists_t), intent(in) :: lists !< corners of these elements at least
+      integer(ip), intent(in) :: elements(:)    !< distinct ones
+      integer, intent(in) :: n_rounds           !< >= 0; each may double a cluster
+      type(cluster_t), intent(out) :: clusters  !< `n` and `of_element` alone; link_clusters finds the others
       integer(ip) :: i
       integer :: round
 
@@ -139,8 +139,8 @@ contains
 
    !> Finds the neighbours of the clusters and how many nodes they share.
    subroutine link_clusters(lists, clusters)
-      type(corner_lists_t), intent(in) :: lists
-      type(cluster_t), intent(inout) :: clusters
+      type(corner_lists_t), intent(in) :: lists  !< as for join_elements
+      type(cluster_t), intent(inout) :: clusters !< from join_elements; gets weights and neighbours
       integer(ip), allocatable :: first(:), element(:), seen(:)
       type(tally_t) :: tally
       integer(ip) :: c, i, n

@@ -43,12 +43,12 @@ contains
 
    !> Orders the wanted nodes of some elements.
    subroutine order_elements(elements, nodes, n_nodes_of, x, wanted, parts, text)
-      integer(ip), intent(in) :: elements(:)     !< which
-      integer(ip), intent(in) :: nodes(:, :)     !< (most nodes, all elements)
-      integer(ip), intent(in) :: n_nodes_of(:)   !< (all elements) nodes of each; the first four or all stand for its corners
-      real(wp), intent(in) :: x(:, :)            !< (2, all nodes) [L]
-      logical, intent(in) :: wanted(:)           !< (all nodes); those that are belong to the elements
-      type(dissection_t), intent(out) :: parts
+      integer(ip), intent(in) :: elements(:)             !< which
+      integer(ip), intent(in) :: nodes(:, :)             !< (most nodes, all elements)
+      integer(ip), intent(in) :: n_nodes_of(:) !< (all elements) nodes of each; the first four or all stand for its corners
+      real(wp), intent(in) :: x(:, :)                    !< (2, all nodes) [L]
+      logical, intent(in) :: wanted(:)                   !< (all nodes); those that are belong to the elements
+      type(dissection_t), intent(out) :: parts           !< of the dissection that was chosen
       character(len=:), allocatable, intent(out) :: text !< how, for the listing
       type(dissection_guide_t) :: guide
       type(compact_mesh_t) :: mesh

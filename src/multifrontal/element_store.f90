@@ -31,7 +31,7 @@ contains
 
    !> An empty store with room for some elements.
    pure subroutine begin_store(store)
-      type(element_store_t), intent(out) :: store
+      type(element_store_t), intent(out) :: store !< holds no element
       integer(ip), parameter :: ROOM = 1024_ip
 
       allocate (store%start(ROOM), store%equations(8*ROOM), store%matrix_of(ROOM), store%matrix_start(ROOM), store%values(64*ROOM))
@@ -42,9 +42,9 @@ contains
    !> Adds the matrix of an element at its equations. A matrix that is the newest one bit by bit is stored once. store%enough is
    !> false, and nothing is added, where there is no memory for it.
    pure subroutine add_to_store(store, equations, matrix)
-      type(element_store_t), intent(inout) :: store
-      integer(ip), intent(in) :: equations(:)    !< 0: prescribed
-      real(wp), intent(in) :: matrix(:, :)       !< symmetric
+      type(element_store_t), intent(inout) :: store !< gets one element more, if there is memory
+      integer(ip), intent(in) :: equations(:)       !< 0: prescribed
+      real(wp), intent(in) :: matrix(:, :)          !< symmetric
       integer(lp) :: first
       integer(ip) :: m
       logical :: is_new
@@ -142,8 +142,8 @@ contains
 
    !> The diagonal of the first elements.
    pure subroutine sum_diagonals(store, n_elements, diagonal)
-      type(element_store_t), intent(in) :: store
-      integer(ip), intent(in) :: n_elements
+      type(element_store_t), intent(in) :: store !< several elements may have one matrix
+      integer(ip), intent(in) :: n_elements      !< the first so many are summed
       real(wp), intent(out) :: diagonal(:)       !< (equations)
       integer(ip) :: e, i, k, n
       integer(lp) :: first, at
@@ -163,8 +163,8 @@ contains
 
    !> What the first, third, ... equation of the first elements has with the next one: two displacements of a node.
    pure subroutine sum_couplings(store, n_elements, coupling)
-      type(element_store_t), intent(in) :: store
-      integer(ip), intent(in) :: n_elements
+      type(element_store_t), intent(in) :: store !< several elements may have one matrix
+      integer(ip), intent(in) :: n_elements      !< the first so many are summed
       real(wp), intent(out) :: coupling(:)       !< (equations)
       integer(ip) :: e, i, k, n
       integer(lp) :: first, at
@@ -182,10 +182,10 @@ contains
       end do
    end subroutine sum_couplings
 
-   !> Takes over the matrices of a store of the same elements, each with its own; nothing is left in it.
+   !> Takes over the matrices of a store of the same elements, each with its own; only its lists of equations are left in it.
    pure subroutine take_own_matrices(from, store)
-      type(element_store_t), intent(inout) :: from
-      type(element_store_t), intent(inout) :: store
+      type(element_store_t), intent(inout) :: from  !< loses its matrices, keeps its equations
+      type(element_store_t), intent(inout) :: store !< gets them as `own`
 
       call move_matrices(from%matrices_t, store%own)
       from%n_matrices = 0
@@ -204,8 +204,8 @@ contains
 
    !> Moves what a store holds into another one; nothing is left in it.
    pure subroutine move_store(from, to)
-      type(element_store_t), intent(inout) :: from
-      type(element_store_t), intent(out) :: to
+      type(element_store_t), intent(inout) :: from !< is left empty
+      type(element_store_t), intent(out) :: to     !< what it held is lost
 
       to%n_matrices = from%n_matrices
       to%is_near = from%is_near

@@ -22,7 +22,7 @@ contains
 
    !> Equations in the order of their numbers, each supernode the parent of the one before.
    pure function chain_elimination(n, n_retained) result(elimination)
-      integer(ip), intent(in) :: n, n_retained
+      integer(ip), intent(in) :: n, n_retained !< equations; the last ones of them, which are not eliminated
       type(elimination_t) :: elimination
       integer(ip) :: n_supernodes, p, i
 

@@ -35,10 +35,10 @@ contains
 
    !> Adds an element matrix, a packed lower triangle.
    pure subroutine add_element(order, front, m, positions, matrix)
-      integer(ip), intent(in) :: order, m
-      real(wp), intent(inout) :: front(order, order)
-      integer(ip), intent(in) :: positions(m)       !< in the front; 0: prescribed
-      real(wp), intent(in) :: matrix(*)
+      integer(ip), intent(in) :: order, m            !< rows of the front; of the element matrix
+      real(wp), intent(inout) :: front(order, order) !< lower triangle alone
+      integer(ip), intent(in) :: positions(m)        !< in the front; 0: prescribed
+      real(wp), intent(in) :: matrix(*)              !< (m (m + 1)/2) by columns
       integer(ip) :: a, b, i, j, k
 
       k = 0
@@ -54,8 +54,8 @@ contains
 
    !> Zeroes the lower triangle.
    subroutine clear_front(order, front)
-      integer(ip), intent(in) :: order
-      real(wp), intent(inout) :: front(order, order)
+      integer(ip), intent(in) :: order               !< rows of the front
+      real(wp), intent(inout) :: front(order, order) !< lower triangle alone
       integer(ip) :: first, j
 
       do first = 1, order, STRIP
@@ -70,10 +70,10 @@ contains
 
    !> Adds what the elimination of a child left, a packed lower triangle.
    subroutine add_update(order, front, m, positions, update)
-      integer(ip), intent(in) :: order, m
-      real(wp), intent(inout) :: front(order, order)
-      integer(ip), intent(in) :: positions(m)       !< in the front, ascending
-      real(wp), intent(in) :: update(*)
+      integer(ip), intent(in) :: order, m            !< rows of the front; of the update
+      real(wp), intent(inout) :: front(order, order) !< lower triangle alone
+      integer(ip), intent(in) :: positions(m)        !< in the front, ascending
+      real(wp), intent(in) :: update(*)              !< (m (m + 1)/2) by columns
       integer(ip) :: first
 
       do first = 1, m, STRIP
@@ -105,9 +105,9 @@ contains
 
    !> Eliminates the first pivots: their columns become those of L, the rest the Schur complement.
    subroutine eliminate(order, n_pivots, front, failed)
-      integer(ip), intent(in) :: order, n_pivots
-      real(wp), intent(inout) :: front(order, order)
-      integer(ip), intent(out) :: failed         !< the first pivot that is not positive, 0: none; it is left on the diagonal
+      integer(ip), intent(in) :: order, n_pivots     !< rows of the front; those eliminated, the first ones
+      real(wp), intent(inout) :: front(order, order) !< lower triangle: F, then L_p, L_b and U
+      integer(ip), intent(out) :: failed             !< the first pivot that is not positive, 0: none; it is left on the diagonal
       integer(ip) :: first, last, info
 
       failed = 0
@@ -149,9 +149,9 @@ contains
 
    !> Columns of a lower triangle one behind the other.
    subroutine pack_columns(order, front, first, last, packed)
-      integer(ip), intent(in) :: order, first, last
-      real(wp), intent(in) :: front(order, order)
-      real(wp), intent(inout) :: packed(*)
+      integer(ip), intent(in) :: order, first, last !< rows of the front; its columns from here to there
+      real(wp), intent(in) :: front(order, order)   !< lower triangle alone
+      real(wp), intent(inout) :: packed(*)          !< from the diagonal down, column after column
       integer(ip) :: start
 
       do start = first, last, STRIP

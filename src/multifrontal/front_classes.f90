@@ -27,8 +27,8 @@ contains
 
    !> An empty list, in which the records of so many supernodes will be looked up.
    pure subroutine begin_classes(list, n_supernodes)
-      type(class_list_t), intent(inout) :: list
-      integer(ip), intent(in) :: n_supernodes
+      type(class_list_t), intent(inout) :: list !< nothing allocated in it
+      integer(ip), intent(in) :: n_supernodes   !< not more are looked up
       integer(ip), parameter :: ROOM = 256_ip
       integer(ip) :: slots
       integer :: no_memory
@@ -46,16 +46,16 @@ contains
 
    !> Gives back what only find_class needs.
    pure subroutine end_classes(list)
-      type(class_list_t), intent(inout) :: list
+      type(class_list_t), intent(inout) :: list !< loses its hash table
 
       if (allocated(list%table)) deallocate (list%table)
    end subroutine end_classes
 
    !> Looks the record of a supernode up, with the classes of its children; it becomes a class when it is new.
    pure subroutine find_class(list, record, p, alone, found)
-      type(class_list_t), intent(inout) :: list
-      integer(ip), intent(in) :: record(:)
-      integer(ip), intent(in) :: p
+      type(class_list_t), intent(inout) :: list  !< a new class is added to it
+      integer(ip), intent(in) :: record(:)       !< children by their classes (name_classes)
+      integer(ip), intent(in) :: p               !< supernode, which stands for its class if that is new
       logical, intent(in) :: alone               !< a class of its own, whatever there is
       integer(ip), intent(out) :: found          !< of no use when there was not enough memory
       integer(ip) :: slot, range
@@ -104,8 +104,8 @@ contains
 
    !> Puts the classes of the children in the place of their numbers.
    pure subroutine name_classes(class_of, record)
-      integer(ip), intent(in) :: class_of(:)
-      integer(ip), intent(inout) :: record(:)
+      integer(ip), intent(in) :: class_of(:)  !< (supernodes) of the children at least
+      integer(ip), intent(inout) :: record(:) !< children by their supernodes; then by their classes
       integer(lp) :: k
       integer(ip) :: i
 
@@ -118,8 +118,8 @@ contains
 
    !> The classes of the children of a class.
    pure function children_of(list, c) result(children)
-      class(class_list_t), intent(in) :: list
-      integer(ip), intent(in) :: c
+      class(class_list_t), intent(in) :: list !< complete
+      integer(ip), intent(in) :: c            !< 1 .. n_classes
       integer(ip), allocatable :: children(:)
       integer(lp) :: k
       integer(ip) :: i

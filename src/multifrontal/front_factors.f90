@@ -35,7 +35,8 @@ module atrito_front_factors
       logical :: enough = .true.                 !< memory for it, its front and its update
       integer(ip) :: failed = 0                  !< pivot that could not be used
       integer(ip) :: worst = 0                   !< pivot that lost most
-      real(wp) :: worst_pivot = 0.0_wp, smallest_pivot = 0.0_wp, largest_pivot = 0.0_wp
+      real(wp) :: worst_pivot = 0.0_wp           !< value of the one at `worst`
+      real(wp) :: smallest_pivot = 0.0_wp, largest_pivot = 0.0_wp !< of the front
    end type factor_t
 
    !> The fronts of a matrix.
@@ -54,14 +55,14 @@ module atrito_front_factors
 
    !> Classes first..last, which are factored one after the other.
    type :: task_t
-      integer(ip) :: first = 0, last = 0
-      integer(ip) :: wave = 1
+      integer(ip) :: first = 0, last = 0 !< place in the list of classes
+      integer(ip) :: wave = 1            !< those of wave 1 need no other task
    end type task_t
 
    !> Where a thread assembles the fronts of its tasks, one after the other: memory that is asked for anew for each large front
    !> has to be made by the system every time. A task is tied, so no other one of its thread comes between.
    type :: workspace_t
-      real(wp), allocatable :: front(:)
+      real(wp), allocatable :: front(:) !< (largest order**2, or less as yet) a front, by columns
    end type workspace_t
 
    integer(lp), parameter :: REAL_BYTES = storage_size(1.0_wp)/8
@@ -77,10 +78,10 @@ contains
 
    !> Finds the fronts of a matrix, their classes and their sizes; nothing is factored. `enough` of the fronts tells of the memory.
    subroutine plan_fronts(elimination, n, n_retained, store, fronts)
-      type(elimination_t), intent(in) :: elimination
+      type(elimination_t), intent(in) :: elimination !< order of equations, and supernodes
       integer(ip), intent(in) :: n, n_retained       !< equations; the last ones of them, which are not eliminated
-      type(element_store_t), intent(in) :: store
-      type(fronts_t), intent(out) :: fronts
+      type(element_store_t), intent(in) :: store     !< elements of the matrix; their values are not looked at
+      type(fronts_t), intent(out) :: fronts          !< classes and sizes, without factors
       real(wp), allocatable :: entries(:)
       integer(ip) :: c
       integer :: no_memory
@@ -116,8 +117,8 @@ contains
 
    !> Factors all classes. The last one, of the retained equations, is assembled only: its lower triangle, packed, is its update.
    subroutine factor_fronts(fronts, store, diagonal, enough)
-      type(fronts_t), intent(inout) :: fronts
-      type(element_store_t), intent(in) :: store
+      type(fronts_t), intent(inout) :: fronts    !< planned; gets its factors
+      type(element_store_t), intent(in) :: store !< element matrices, their values included
       real(wp), intent(in) :: diagonal(:)        !< (n) of the matrix, by positions
       logical, intent(out) :: enough             !< memory; the factors are of no use without
       type(task_t), allocatable :: tasks(:)
@@ -146,8 +147,8 @@ contains
 
    !> What factor_fronts will take, before it does: its classes in its order, with one thread; and a front for each thread.
    subroutine expect_factors(fronts, bytes)
-      type(fronts_t), intent(in) :: fronts
-      type(front_bytes_t), intent(out) :: bytes
+      type(fronts_t), intent(in) :: fronts      !< planned
+      type(front_bytes_t), intent(out) :: bytes !< `held` when all is factored, `most` at the peak
       type(task_t), allocatable :: tasks(:)
       integer(ip) :: waiting(fronts%n_classes), wave, u, c
       real(wp) :: work
@@ -168,10 +169,10 @@ contains
 
    !> Counts a class as factor_class will make it: what its children leave is given back with their last parent.
    pure subroutine count_class(fronts, c, waiting, bytes)
-      type(fronts_t), intent(in) :: fronts
-      integer(ip), intent(in) :: c
-      integer(ip), intent(inout) :: waiting(:)   !< (n_classes)
-      type(front_bytes_t), intent(inout) :: bytes
+      type(fronts_t), intent(in) :: fronts        !< planned
+      integer(ip), intent(in) :: c                !< class that is counted, after its children
+      integer(ip), intent(inout) :: waiting(:)    !< (n_classes)
+      type(front_bytes_t), intent(inout) :: bytes !< `held` goes up and down, `most` up
       integer(ip), allocatable :: children(:)
       integer(ip) :: i
 
@@ -195,7 +196,7 @@ contains
 
    !> What the arrays of a factor take now.
    pure elemental integer(lp) function held_bytes(factor, chunk) result(bytes)
-      type(factor_t), intent(in) :: factor
+      type(factor_t), intent(in) :: factor       !< of one class
       integer(lp), intent(in) :: chunk           !< counted for each array besides
 
       bytes = 0
@@ -282,11 +283,11 @@ contains
 
    !> Assembles and factors the fronts of a class. What was there of it before is overwritten.
    subroutine factor_class(store, diagonal, c, order, fronts, front)
-      type(element_store_t), intent(in) :: store
-      real(wp), intent(in) :: diagonal(:)
-      integer(ip), intent(in) :: c, order
-      type(fronts_t), intent(inout) :: fronts    !< the factors of the children have their updates
-      real(wp), intent(inout) :: front(order, order)
+      type(element_store_t), intent(in) :: store     !< element matrices, their values included
+      real(wp), intent(in) :: diagonal(:)            !< (n) of the matrix, by positions
+      integer(ip), intent(in) :: c, order            !< class; rows of its front
+      type(fronts_t), intent(inout) :: fronts        !< the factors of the children have their updates
+      real(wp), intent(inout) :: front(order, order) !< where it is assembled; of no use afterwards
       integer(ip) :: first, last, m
       integer :: no_memory
       logical :: complete
@@ -357,7 +358,7 @@ contains
 
    !> status: STATUS_INTERNAL, there is not enough memory for the fronts.
    pure subroutine tell_of_memory(status)
-      type(status_t), intent(inout) :: status
+      type(status_t), intent(inout) :: status !< set without condition
 
       call set_status(status, STATUS_INTERNAL, 'not enough memory for the fronts')
    end subroutine tell_of_memory

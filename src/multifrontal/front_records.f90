@@ -30,40 +30,40 @@ module atrito_front_records
 
    !> The supernodes with their elements: what is assembled where. The last one holds the retained equations.
    type :: assembly_tree_t
-      integer(ip) :: n = 0, n_supernodes = 0          !< equations; supernodes
-      integer(ip), allocatable :: first(:)       !< (n_supernodes + 1) positions of supernode p: first(p)..first(p + 1) - 1
-      integer(ip), allocatable :: parent(:)      !< (n_supernodes) 0 for the last
-      integer(ip), allocatable :: n_descendants(:) !< (n_supernodes) they stand just before the supernode
+      integer(ip) :: n = 0, n_supernodes = 0                    !< equations; supernodes
+      integer(ip), allocatable :: first(:) !< (n_supernodes + 1) positions of supernode p: first(p)..first(p + 1) - 1
+      integer(ip), allocatable :: parent(:)                     !< (n_supernodes) 0 for the last
+      integer(ip), allocatable :: n_descendants(:)              !< (n_supernodes) they stand just before the supernode
       integer(ip), allocatable :: first_child(:), next_child(:) !< (n_supernodes) in the order of the supernodes; 0: none
-      integer(ip), allocatable :: border_size(:) !< (n_supernodes) of those that are written
-      integer(ip), allocatable :: class_of(:)    !< (n_supernodes) for the caller
+      integer(ip), allocatable :: border_size(:)                !< (n_supernodes) of those that are written
+      integer(ip), allocatable :: class_of(:)                   !< (n_supernodes) for the caller
       integer(ip), allocatable :: first_element(:) !< (n_supernodes + 1) element(first_element(p):first_element(p + 1) - 1)
-      integer(ip), allocatable :: element(:)
-      integer(ip), allocatable :: position(:)       !< of the equations of the store; 0: prescribed
-      integer(lp) :: longest = 0                 !< most equations of an element
-      logical :: enough = .true.                 !< memory; the tree is of no use without
+      integer(ip), allocatable :: element(:)                    !< sorted by the supernode that assembles them
+      integer(ip), allocatable :: position(:)                   !< of the equations of the store; 0: prescribed
+      integer(lp) :: longest = 0                                !< most equations of an element
+      logical :: enough = .true.                                !< memory; the tree is of no use without
    end type assembly_tree_t
 
    !> Writes the records of supernodes that follow one another: of a subtree, or of what stands above subtrees.
    type :: record_writer_t
-      integer(ip), allocatable :: record(:)      !< (written or more) of the supernode in hand
-      integer(lp) :: written = 0
-      logical :: enough = .true.                 !< memory, for all supernodes so far; nothing more is written without
-      integer(ip), allocatable, private :: at(:) !< (n) position in the front of the supernode in hand; 0: not in it
+      integer(ip), allocatable :: record(:)                     !< (written or more) of the supernode in hand
+      integer(lp) :: written = 0                                !< numbers of the record in hand
+      logical :: enough = .true. !< memory, for all supernodes so far; nothing more is written without
+      integer(ip), allocatable, private :: at(:)                !< (n) position in the front of the supernode in hand; 0: not in it
       integer(ip), allocatable, private :: border(:), buffer(:) !< (n) of that supernode; new ones for it
-      integer(ip), private :: n_border = 0, n_new = 0
-      integer(ip), allocatable, private :: stack(:) !< borders of finished supernodes, the last one on top
-      integer(lp), private :: top = 0
+      integer(ip), private :: n_border = 0, n_new = 0           !< equations in `border`; in `buffer`
+      integer(ip), allocatable, private :: stack(:)             !< borders of finished supernodes, the last one on top
+      integer(lp), private :: top = 0                           !< entries on the stack
    end type record_writer_t
 
 contains
 
    !> Sets up the tree of an elimination.
    subroutine plant_tree(elimination, n, n_retained, store, tree)
-      type(elimination_t), intent(in) :: elimination
-      integer(ip), intent(in) :: n, n_retained
-      type(element_store_t), intent(in) :: store
-      type(assembly_tree_t), intent(out) :: tree
+      type(elimination_t), intent(in) :: elimination !< order of equations, and supernodes
+      integer(ip), intent(in) :: n, n_retained       !< equations; the last ones of them, which are not eliminated
+      type(element_store_t), intent(in) :: store     !< equations of the elements are read
+      type(assembly_tree_t), intent(out) :: tree     !< borders and classes are not known yet
       integer(ip) :: p, m
       integer :: no_memory
 
@@ -124,8 +124,8 @@ contains
 
    !> Gets ready to write the records of fronts, once; writer%enough is false where there is no memory for it.
    pure subroutine begin_writer(writer, n)
-      type(record_writer_t), intent(inout) :: writer
-      integer(ip), intent(in) :: n               !< equations
+      type(record_writer_t), intent(inout) :: writer !< its stack is emptied; memory is asked for once
+      integer(ip), intent(in) :: n                   !< equations
       integer(ip), parameter :: ROOM = 1024_ip
       integer :: no_memory
 
@@ -139,10 +139,10 @@ contains
    !> Writes the record of a supernode; its children are the last ones that were written or pushed. Its border takes the place of
    !> theirs on the stack.
    subroutine write_supernode(store, tree, p, writer)
-      type(element_store_t), intent(in) :: store
+      type(element_store_t), intent(in) :: store     !< elements of the matrix; their values are not looked at
       type(assembly_tree_t), intent(inout) :: tree   !< gets the size of the supernode's border
-      integer(ip), intent(in) :: p
-      type(record_writer_t), intent(inout) :: writer
+      integer(ip), intent(in) :: p                   !< supernode whose record is written
+      type(record_writer_t), intent(inout) :: writer !< gets the record; its stack changes
       integer(ip) :: child, n_children, n_elements, i, e
       integer(lp) :: base, length
 
@@ -219,8 +219,8 @@ contains
 
    !> The border on top of the stack.
    pure function top_border(writer, n) result(border)
-      type(record_writer_t), intent(in) :: writer
-      integer(ip), intent(in) :: n               !< its entries
+      type(record_writer_t), intent(in) :: writer !< is not changed: the border stays on the stack
+      integer(ip), intent(in) :: n                !< its entries
       integer(ip) :: border(n)
 
       border = writer%stack(writer%top - n + 1:writer%top)
@@ -228,8 +228,8 @@ contains
 
    !> Puts a border on the stack.
    pure subroutine push_border(writer, border)
-      type(record_writer_t), intent(inout) :: writer
-      integer(ip), intent(in) :: border(:)
+      type(record_writer_t), intent(inout) :: writer !< `enough` tells of the memory
+      integer(ip), intent(in) :: border(:)           !< positions, ascending
       integer(ip) :: n
 
       n = size(border, kind=ip)

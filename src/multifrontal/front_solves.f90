@@ -26,8 +26,8 @@ module atrito_front_solves
 
    !> The vectors on borders that wait for other supernodes, the last one on top.
    type :: stack_t
-      real(wp), allocatable :: entries(:)
-      integer(lp) :: top = 0
+      real(wp), allocatable :: entries(:) !< those up to `top` are in use
+      integer(lp) :: top = 0              !< entries on the stack
    end type stack_t
 
    !> Entries of the factor of one supernode that are worth waking other threads.
@@ -41,7 +41,7 @@ contains
 
    !> x <- L^-1 x for the eliminated positions; the retained ones take what it leaves for them.
    subroutine forward(fronts, x)
-      type(fronts_t), intent(in) :: fronts
+      type(fronts_t), intent(in) :: fronts       !< factored
       real(wp), intent(inout) :: x(:)            !< (n) by positions
       type(stack_t) :: stack, stacks(size(fronts%subtrees))
       integer(ip) :: u, next
@@ -115,7 +115,7 @@ contains
 
    !> x_i <- L^-T (x_i - L_ci' x_c) for the eliminated positions.
    subroutine backward(fronts, x)
-      type(fronts_t), intent(in) :: fronts
+      type(fronts_t), intent(in) :: fronts       !< factored
       real(wp), intent(inout) :: x(:)            !< (n) by positions
       type(stack_t) :: stack, stacks(size(fronts%subtrees))
       integer(ip) :: u, m, next

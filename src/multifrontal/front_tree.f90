@@ -20,16 +20,16 @@ module atrito_front_tree
 
    !> The supernodes and the classes of their fronts. The last supernode holds the retained equations and is never eliminated.
    type, extends(class_list_t) :: front_tree_t
-      integer(ip) :: n_supernodes = 0
-      integer(ip), allocatable :: first(:)       !< (n_supernodes + 1) positions of supernode p: first(p)..first(p + 1) - 1
-      integer(ip), allocatable :: class_of(:)    !< (n_supernodes)
-      integer(ip), allocatable :: parent(:)      !< (n_supernodes) 0 for the last
+      integer(ip) :: n_supernodes = 0              !< the retained equations count as one
+      integer(ip), allocatable :: first(:)         !< (n_supernodes + 1) positions of supernode p: first(p)..first(p + 1) - 1
+      integer(ip), allocatable :: class_of(:)      !< (n_supernodes)
+      integer(ip), allocatable :: parent(:)        !< (n_supernodes) 0 for the last
       integer(ip), allocatable :: n_descendants(:) !< (n_supernodes) they stand just before the supernode
    end type front_tree_t
 
    !> Supernodes first..last.
    type :: subtree_t
-      integer(ip) :: first = 0, last = 0
+      integer(ip) :: first = 0, last = 0 !< places in postorder
    end type subtree_t
 
    !> The classes of a subtree, found by one thread.
@@ -46,10 +46,10 @@ contains
 
    !> Finds the fronts and their classes.
    subroutine build_front_tree(elimination, n, n_retained, store, tree)
-      type(elimination_t), intent(in) :: elimination
-      integer(ip), intent(in) :: n, n_retained
-      type(element_store_t), intent(in) :: store
-      type(front_tree_t), intent(out) :: tree
+      type(elimination_t), intent(in) :: elimination !< order of equations, and supernodes
+      integer(ip), intent(in) :: n, n_retained       !< equations; the last ones of them, which are not eliminated
+      type(element_store_t), intent(in) :: store     !< elements of the matrix; their values are not looked at
+      type(front_tree_t), intent(out) :: tree        !< `enough` is false where the memory did not suffice
       type(assembly_tree_t) :: assembly
       type(subtree_t), allocatable :: subtrees(:)
       type(subtree_classes_t), allocatable :: found(:)
@@ -82,10 +82,10 @@ contains
 
    !> The largest subtrees of at most a share of the work. The last supernode belongs to none.
    pure subroutine cut_subtrees(parent, n_descendants, share, work, subtrees)
-      integer(ip), intent(in) :: parent(:), n_descendants(:) !< (n_supernodes)
-      real(wp), intent(in) :: share
-      real(wp), intent(inout) :: work(:)         !< (n_supernodes) of each; becomes that of its subtree
-      type(subtree_t), allocatable, intent(out) :: subtrees(:)
+      integer(ip), intent(in) :: parent(:), n_descendants(:)   !< (n_supernodes)
+      real(wp), intent(in) :: share                            !< of all work, 0 .. 1; 0: no subtree
+      real(wp), intent(inout) :: work(:)                       !< (n_supernodes) of each; becomes that of its subtree
+      type(subtree_t), allocatable, intent(out) :: subtrees(:) !< ascending, without common supernodes
       integer(ip) :: list(size(parent)), p, n
       real(wp) :: most
 

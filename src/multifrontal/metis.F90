@@ -34,13 +34,13 @@ contains
    !> Cuts a graph in halves, these in halves, and so on: 2**n_levels parts, of whose numbers from zero the highest bit tells the
    !> half, the next one the half of the half. The same for every call with the same graph.
    subroutine halve_graph(first, neighbour, vertex_weight, edge_weight, n_levels, imbalance, part, done)
-      integer(ip), intent(in) :: first(:)        !< (n + 1) neighbours of vertex i: neighbour(first(i):first(i + 1) - 1)
-      integer(ip), intent(in) :: neighbour(:), edge_weight(:)
-      integer(ip), intent(in) :: vertex_weight(:) !< (n)
-      integer, intent(in) :: n_levels
-      integer(ip), intent(in) :: imbalance       !< thousandths by which the largest part may be heavier than the mean
-      integer(ip), intent(out) :: part(:)        !< (n)
-      logical, intent(out) :: done               !< there is METIS, and it had enough memory
+      integer(ip), intent(in) :: first(:) !< (n + 1) neighbours of vertex i: neighbour(first(i):first(i + 1) - 1)
+      integer(ip), intent(in) :: neighbour(:), edge_weight(:) !< one entry an edge and direction; edge_weight > 0
+      integer(ip), intent(in) :: vertex_weight(:)             !< (n)
+      integer, intent(in) :: n_levels                         !< 2**n_levels parts
+      integer(ip), intent(in) :: imbalance                    !< thousandths by which the largest part may be heavier than the mean
+      integer(ip), intent(out) :: part(:)                     !< (n)
+      logical, intent(out) :: done                            !< there is METIS, and it had enough memory
       procedure(partition), pointer :: cut_up
       integer(c_int32_t) :: options(N_OPTIONS), cut
 

@@ -26,18 +26,18 @@ module atrito_variable_matrix
              expect_variable_factors
 
    type :: variable_matrix_t
-      integer(ip) :: n = 0                         !< equations
-      integer(ip) :: n_kept = 0                    !< the last ones of them, which are not eliminated
-      integer(ip) :: n_fixed = 0                   !< elements that do not change, the first ones
-      integer(ip) :: n_fronts = 0, n_refactored = 0 !< all that are different; those of the last factorisation
-      integer(ip) :: failed = 0                    !< equation whose pivot was not positive
-      type(elimination_t), private :: elimination
-      type(element_store_t), private :: store
-      type(fronts_t), private :: fronts
-      integer(ip), private :: first_matrix = 0     !< that of variable element v is first_matrix + v
+      integer(ip) :: n = 0                             !< equations
+      integer(ip) :: n_kept = 0                        !< the last ones of them, which are not eliminated
+      integer(ip) :: n_fixed = 0                       !< elements that do not change, the first ones
+      integer(ip) :: n_fronts = 0, n_refactored = 0    !< all that are different; those of the last factorisation
+      integer(ip) :: failed = 0                        !< equation whose pivot was not positive
+      type(elimination_t), private :: elimination      !< order of equations, and supernodes
+      type(element_store_t), private :: store          !< fixed elements, then the variable ones
+      type(fronts_t), private :: fronts                !< factors of the last factorisation
+      integer(ip), private :: first_matrix = 0         !< that of variable element v is first_matrix + v
       integer(ip), allocatable, private :: class_of(:) !< (variable elements) front that it is assembled in; 0: none
-      logical, allocatable, private :: is_due(:)   !< (classes)
-      real(wp), allocatable, private :: front(:)   !< where fronts are assembled
+      logical, allocatable, private :: is_due(:)       !< (classes)
+      real(wp), allocatable, private :: front(:)       !< where fronts are assembled
    end type variable_matrix_t
 
    !> More parents than there are: what a front leaves is kept.
@@ -48,14 +48,14 @@ contains
 
    !> Sets up the fronts. status: STATUS_INTERNAL when the memory does not suffice.
    subroutine create_variable_matrix(matrix, n, elimination, fixed, start, equations, status, n_kept)
-      type(variable_matrix_t), intent(out) :: matrix
-      integer(ip), intent(in) :: n                 !< equations
+      type(variable_matrix_t), intent(out) :: matrix !< all fronts are due
+      integer(ip), intent(in) :: n                   !< equations
       type(elimination_t), intent(in) :: elimination !< of all of them; those that are kept last, in the order of their numbers
-      type(element_store_t), intent(inout) :: fixed !< elements that do not change; it is emptied
-      integer(lp), intent(in) :: start(:)          !< (n_variable + 1)
-      integer(ip), intent(in) :: equations(:)      !< of variable element v: start(v) + 1..start(v + 1); 0: prescribed
-      type(status_t), intent(out) :: status
-      integer(ip), intent(in), optional :: n_kept  !< equations that are not eliminated, the last ones; none where it is left out
+      type(element_store_t), intent(inout) :: fixed  !< elements that do not change; it is emptied
+      integer(lp), intent(in) :: start(:)            !< (n_variable + 1)
+      integer(ip), intent(in) :: equations(:)        !< of variable element v: start(v) + 1..start(v + 1); 0: prescribed
+      type(status_t), intent(out) :: status          !< STATUS_INTERNAL where the memory does not suffice
+      integer(ip), intent(in), optional :: n_kept    !< equations that are not eliminated, the last ones; none where it is left out
 
       matrix%n = n
       if (present(n_kept)) matrix%n_kept = n_kept
@@ -141,9 +141,9 @@ contains
 
    !> The next factorisation takes this matrix for a variable element.
    subroutine set_variable_element(matrix, v, values)
-      type(variable_matrix_t), intent(inout) :: matrix
-      integer(ip), intent(in) :: v
-      real(wp), intent(in) :: values(:, :)         !< symmetric, of its equations
+      type(variable_matrix_t), intent(inout) :: matrix !< the front of the element becomes due
+      integer(ip), intent(in) :: v                     !< variable element, 1 .. n_variable
+      real(wp), intent(in) :: values(:, :)             !< symmetric, of its equations
       integer(lp) :: first, last
 
       first = matrix%store%matrix_start(matrix%first_matrix + v)
@@ -160,8 +160,8 @@ contains
    !> status: STATUS_SINGULAR when a pivot is not positive (matrix%failed), STATUS_INTERNAL when the
    !> memory does not suffice.
    subroutine factor_variable_matrix(matrix, status)
-      type(variable_matrix_t), intent(inout) :: matrix
-      type(status_t), intent(out) :: status
+      type(variable_matrix_t), intent(inout) :: matrix !< every variable element has been set once
+      type(status_t), intent(out) :: status            !< OK, or as above
       real(wp), allocatable :: no_diagonal(:)      ! pivots are judged by their sign alone
       integer(ip) :: c
       integer :: no_memory
@@ -202,8 +202,8 @@ contains
 
    !> x <- A^-1 x.
    subroutine solve_variable_matrix(matrix, x)
-      type(variable_matrix_t), intent(in) :: matrix
-      real(wp), intent(inout) :: x(:)              !< (n)
+      type(variable_matrix_t), intent(in) :: matrix !< factored, nothing kept
+      real(wp), intent(inout) :: x(:)               !< (n)
 
       call reduce_variable(matrix, x)
       call expand_variable(matrix, x)
@@ -212,8 +212,8 @@ contains
    !> What the last factorisation leaves of the matrix at the kept unknowns, their Schur complement: the lower triangle by columns,
    !> where the matrix has it. Whoever changes it puts it back. Not associated where nothing is kept.
    function kept_values(matrix) result(values)
-      type(variable_matrix_t), intent(in), target :: matrix
-      real(wp), pointer, contiguous :: values(:)   !< (n_kept (n_kept + 1)/2)
+      type(variable_matrix_t), intent(in), target :: matrix !< factored
+      real(wp), pointer, contiguous :: values(:)            !< (n_kept (n_kept + 1)/2)
 
       nullify (values)
       if (matrix%n_kept > 0) values => matrix%fronts%factors(matrix%n_fronts)%update
@@ -221,8 +221,8 @@ contains
 
    !> f <- L^-1 f by positions; the last n_kept are what it leaves at the kept unknowns.
    subroutine reduce_variable(matrix, f)
-      type(variable_matrix_t), intent(in) :: matrix
-      real(wp), intent(inout) :: f(:)              !< (n) in: by unknowns; out: by positions
+      type(variable_matrix_t), intent(in) :: matrix !< factored
+      real(wp), intent(inout) :: f(:)               !< (n) in: by unknowns; out: by positions
       real(wp), allocatable :: by_position(:)
 
       allocate (by_position(matrix%n))
@@ -233,8 +233,8 @@ contains
 
    !> x <- L^-T x behind reduce_variable, with the kept unknowns in the last n_kept places.
    subroutine expand_variable(matrix, x)
-      type(variable_matrix_t), intent(in) :: matrix
-      real(wp), intent(inout) :: x(:)              !< (n) in: by positions; out: by unknowns
+      type(variable_matrix_t), intent(in) :: matrix !< factored
+      real(wp), intent(inout) :: x(:)               !< (n) in: by positions; out: by unknowns
       real(wp), allocatable :: by_position(:)
 
       by_position = x
@@ -244,9 +244,9 @@ contains
 
    !> y <- y + A x for the elements that do not change, each with the matrix that it has itself.
    subroutine add_fixed_product(matrix, x, y)
-      type(variable_matrix_t), intent(in) :: matrix
-      real(wp), intent(in) :: x(:)                 !< (n)
-      real(wp), intent(inout) :: y(:)              !< (n)
+      type(variable_matrix_t), intent(in) :: matrix !< need not be factored
+      real(wp), intent(in) :: x(:)                  !< (n)
+      real(wp), intent(inout) :: y(:)               !< (n)
       integer(ip) :: e, n
       integer(lp) :: first
 
@@ -300,8 +300,8 @@ contains
 
    !> The diagonal of the elements that do not change, and the coupling of sum_couplings.
    pure subroutine fixed_diagonal(matrix, diagonal, coupling)
-      type(variable_matrix_t), intent(in) :: matrix
-      real(wp), intent(out) :: diagonal(:)         !< (n)
+      type(variable_matrix_t), intent(in) :: matrix  !< need not be factored
+      real(wp), intent(out) :: diagonal(:)           !< (n)
       real(wp), intent(out), optional :: coupling(:) !< (n)
 
       call sum_diagonals(matrix%store, matrix%n_fixed, diagonal)
@@ -310,8 +310,8 @@ contains
 
    !> What the first factorisation will add to the matrix, before it does.
    pure subroutine expect_variable_factors(matrix, bytes)
-      type(variable_matrix_t), intent(in) :: matrix
-      type(front_bytes_t), intent(out) :: bytes
+      type(variable_matrix_t), intent(in) :: matrix !< created, not factored yet
+      type(front_bytes_t), intent(out) :: bytes     !< what it held is left out; both count the front in hand
       integer(ip) :: waiting(matrix%fronts%n_classes), c
 
       waiting = matrix%fronts%waiting
@@ -326,7 +326,7 @@ contains
 
    !> What the matrix holds now [bytes].
    pure integer(lp) function variable_matrix_bytes(matrix) result(bytes)
-      type(variable_matrix_t), intent(in) :: matrix
+      type(variable_matrix_t), intent(in) :: matrix !< with factors, if there are any
 
       associate (fronts => matrix%fronts, store => matrix%store)
          bytes = INDEX_BYTES*(size(fronts%record, kind=lp) + matrix%n) + PART_BYTES*fronts%n_supernodes &

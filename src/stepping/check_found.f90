@@ -22,12 +22,12 @@ contains
 
    !> wrong: what does not fit, in words; not allocated: all does.
    subroutine check_found(data, scene, observed, history, state, wrong)
-      type(scene_data_t), intent(in) :: data         !< of the step in which the history stands
-      type(scene_t), intent(in) :: scene             !< as the deck has it in this step
-      type(string_t), intent(in) :: observed(:)      !< names of what is observed
-      type(history_t), intent(in), target :: history
-      type(restart_state_t), intent(in) :: state
-      character(len=:), allocatable, intent(inout) :: wrong
+      type(scene_data_t), intent(in) :: data                !< of the step in which the history stands
+      type(scene_t), intent(in) :: scene                    !< as the deck has it in this step
+      type(string_t), intent(in) :: observed(:)             !< names of what is observed
+      type(history_t), intent(in), target :: history        !< as the file has it; all frames are shown
+      type(restart_state_t), intent(in) :: state            !< as the file has it; check_place has passed it
+      character(len=:), allocatable, intent(inout) :: wrong !< stays where it is allocated
       type(results_t), pointer :: frame
       integer(ip) :: i
 

@@ -18,9 +18,9 @@ contains
 
    !> Where the history stands, and what its scene is made from: to be asked before that. wrong: what does not fit.
    pure subroutine check_place(model, state, wrong)
-      type(model_t), intent(in) :: model
-      type(restart_state_t), intent(in) :: state
-      character(len=:), allocatable, intent(inout) :: wrong
+      type(model_t), intent(in) :: model                    !< steps of the deck
+      type(restart_state_t), intent(in) :: state            !< as the file has it
+      character(len=:), allocatable, intent(inout) :: wrong !< stays where it is allocated
       real(wp) :: began
 
       call require(wrong, state%step >= 1 .and. state%step <= size(model%steps), 'step')
@@ -58,10 +58,10 @@ contains
 
    !> What friction remembers, and where the contact line starts from, of the scene of the step.
    pure subroutine check_start(data, scene, state, wrong)
-      type(scene_data_t), intent(in) :: data
-      type(scene_t), intent(in) :: scene
-      type(restart_state_t), intent(in) :: state
-      character(len=:), allocatable, intent(inout) :: wrong
+      type(scene_data_t), intent(in) :: data                !< of the step in which the history stands
+      type(scene_t), intent(in) :: scene                    !< as the deck has it in this step
+      type(restart_state_t), intent(in) :: state            !< as the file has it; check_place has passed it
+      character(len=:), allocatable, intent(inout) :: wrong !< stays where it is allocated
 
       associate (n => sum(data%points%n), pairs => size(data%points, kind=ip), bodies => data%fem%bodies%n, memory => state%memory)
          call require(wrong, is_list(memory%rest, n) .and. is_list(memory%slip, n) .and. is_list(memory%shear, n) .and. &

@@ -26,7 +26,7 @@ contains
 
    !> More than one increment, or one from which another may begin.
    pure logical function is_solved_by_increments(model)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model !< its steps are read
 
       is_solved_by_increments = size(model%steps) > 1 .or. model%restart_every > 0
       if (is_solved_by_increments) return
@@ -37,7 +37,7 @@ contains
 
    !> The most of a history [bytes], beside an increment.
    pure integer(lp) function history_bytes(model, n_points, stress_rows) result(bytes)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model               !< mesh, pairs and steps are counted
       integer(ip), intent(in) :: n_points              !< of all pairs
       integer(lp), intent(in) :: stress_rows           !< Gauss points of which stresses are asked for
       integer(lp) :: copies
@@ -65,7 +65,7 @@ contains
 
    !> What the library of field files keeps of increments that are in the file [bytes].
    pure integer(lp) function field_growth(model) result(bytes)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model !< steps and their field requests are read
       integer :: k
 
       bytes = 0

@@ -11,9 +11,9 @@ contains
 
    !> Adds a row of history.tab; the list doubles where it is full, so it may have more room than n.
    pure subroutine add_row(row, n, rows)
-      type(history_row_t), intent(in) :: row
-      integer(ip), intent(inout) :: n
-      type(history_row_t), allocatable, intent(inout) :: rows(:)
+      type(history_row_t), intent(in) :: row                     !< copied
+      integer(ip), intent(inout) :: n                            !< rows in use; one more afterwards
+      type(history_row_t), allocatable, intent(inout) :: rows(:) !< (n or more)
       type(history_row_t), allocatable :: longer(:)
 
       if (n == size(rows)) then
@@ -27,9 +27,9 @@ contains
 
    !> Adds the log of an increment behind those before; the list may have more room than n.
    pure subroutine add_iterations(new, n, iterations)
-      type(iteration_t), intent(in) :: new(:)
-      integer(ip), intent(inout) :: n
-      type(iteration_t), allocatable, intent(inout) :: iterations(:)
+      type(iteration_t), intent(in) :: new(:)                        !< of one increment
+      integer(ip), intent(inout) :: n                                !< iterations in use; as many more afterwards
+      type(iteration_t), allocatable, intent(inout) :: iterations(:) !< (n or more)
       type(iteration_t), allocatable :: longer(:)
 
       if (n + size(new) > size(iterations)) then
@@ -43,8 +43,8 @@ contains
 
    !> What was observed in an increment.
    pure subroutine add_observed(results, list)
-      type(results_t), intent(in) :: results
-      type(observed_list_t), intent(inout) :: list
+      type(results_t), intent(in) :: results       !< of one increment; `observed` is allocated
+      type(observed_list_t), intent(inout) :: list !< gets one increment more
       integer(ip) :: n
 
       n = list%n + 1
@@ -62,9 +62,9 @@ contains
 
    !> The frame before it goes to the store, where there is one.
    subroutine add_frame(frame, n, history)
-      type(results_t), intent(in) :: frame
-      integer(ip), intent(inout) :: n
-      type(history_t), intent(inout) :: history
+      type(results_t), intent(in) :: frame      !< copied
+      integer(ip), intent(inout) :: n           !< frames in use; one more afterwards
+      type(history_t), intent(inout) :: history !< its list of frames has room for n or more
 
       if (n > 0) call put_aside(n, history)
       if (n == size(history%frames)) call give_room(n, n + n/4 + 1, history%frames) ! even without fields they are large
@@ -88,8 +88,8 @@ contains
 
    !> Results go to another place; what is large is not copied.
    pure subroutine move_frame(from, to)
-      type(results_t), intent(inout) :: from
-      type(results_t), intent(inout) :: to
+      type(results_t), intent(inout) :: from !< without its large fields afterwards
+      type(results_t), intent(inout) :: to   !< what it held is lost
       type(results_t) :: large
 
       call move_large(from, large)
@@ -115,8 +115,8 @@ contains
 
    !> No room for more than there is.
    pure subroutine trim_lists(n_frames, n_rows, n_iterations, history)
-      integer(ip), intent(in) :: n_frames, n_rows, n_iterations
-      type(history_t), intent(inout) :: history
+      integer(ip), intent(in) :: n_frames, n_rows, n_iterations !< that are in use
+      type(history_t), intent(inout) :: history                 !< its lists get these lengths
 
       if (size(history%frames) > n_frames) call give_room(n_frames, n_frames, history%frames)
       if (size(history%rows) > n_rows) history%rows = history%rows(:n_rows)

@@ -12,9 +12,9 @@ contains
 
    !> The row of one pair.
    pure type(history_row_t) function row_of_pair(points, results, pair, dissipation) result(row)
-      type(contact_points_t), intent(in) :: points
+      type(contact_points_t), intent(in) :: points   !< directions of the points of this pair
       type(results_t), intent(in) :: results         !< of the increment
-      integer(ip), intent(in) :: pair
+      integer(ip), intent(in) :: pair                !< place in the list of pairs
       real(wp), intent(in) :: dissipation            !< from the beginning of the history [F L]
 
       row%step = results%step

@@ -21,8 +21,8 @@ contains
 
    !> The end of the next increment. What round-off would leave of the step goes with it.
    pure real(wp) function next_time(now, period) result(to)
-      type(progress_t), intent(in) :: now
-      real(wp), intent(in) :: period
+      type(progress_t), intent(in) :: now !< time and length are read
+      real(wp), intent(in) :: period      !< of the step
 
       to = now%time + now%length
       if (period - to <= SLIVER*now%length) to = period
@@ -30,8 +30,8 @@ contains
 
    !> The increment that was tried is tried again, shorter.
    pure subroutine cut_increment(control, now)
-      type(increments_t), intent(in) :: control
-      type(progress_t), intent(inout) :: now
+      type(increments_t), intent(in) :: control !< least length
+      type(progress_t), intent(inout) :: now    !< gets another length; its increment is taken back
 
       now%length = max(CUT*now%length, control%least)
       now%cuts = now%cuts + 1
@@ -40,8 +40,8 @@ contains
 
    !> The length after a success: back to what it was before it was cut; beyond it where the deck lets it grow.
    pure subroutine lengthen(control, now)
-      type(increments_t), intent(in) :: control
-      type(progress_t), intent(inout) :: now
+      type(increments_t), intent(in) :: control !< initial and greatest length
+      type(progress_t), intent(inout) :: now    !< gets another length, no cuts
 
       now%cuts = 0
       if (now%length < control%initial) then
@@ -53,8 +53,8 @@ contains
 
    !> But for round-off.
    pure logical function is_longer_than_least(control, length)
-      type(increments_t), intent(in) :: control
-      real(wp), intent(in) :: length
+      type(increments_t), intent(in) :: control !< least length
+      real(wp), intent(in) :: length            !< of an increment
 
       is_longer_than_least = length > (1.0_wp + SLIVER)*control%least
    end function is_longer_than_least

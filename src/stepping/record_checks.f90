@@ -19,37 +19,37 @@ contains
 
    !> Keeps the first complaint.
    pure subroutine require(wrong, condition, what)
-      character(len=:), allocatable, intent(inout) :: wrong
-      logical, intent(in) :: condition
-      character(len=*), intent(in) :: what
+      character(len=:), allocatable, intent(inout) :: wrong !< an earlier complaint stays
+      logical, intent(in) :: condition                      !< what is asked for holds
+      character(len=*), intent(in) :: what                  !< name of the record, or a few words
 
       if (.not. (condition .or. allocated(wrong))) wrong = what
    end subroutine require
 
    !> Whether two times are the same but for round-off.
    pure logical function is_same_time(one, other)
-      real(wp), intent(in) :: one, other
+      real(wp), intent(in) :: one, other !< finite
 
       is_same_time = abs(one - other) <= SAME_TIME*(abs(one) + abs(other))
    end function is_same_time
 
    !> Whether all values are numbers, none of them infinite.
    pure logical function is_finite(values)
-      real(wp), intent(in) :: values(:)
+      real(wp), intent(in) :: values(:) !< any doubles
 
       is_finite = all(ieee_is_finite(values))
    end function is_finite
 
    !> NaN is none.
    pure logical function is_any_infinite(values)
-      real(wp), intent(in) :: values(:)
+      real(wp), intent(in) :: values(:) !< any doubles
 
       is_any_infinite = any(.not. (ieee_is_finite(values) .or. ieee_is_nan(values)))
    end function is_any_infinite
 
    pure logical function is_list_of_reals(values, n) result(is_list)
-      real(wp), allocatable, intent(in) :: values(:)
-      integer(ip), intent(in) :: n
+      real(wp), allocatable, intent(in) :: values(:) !< as the file has it
+      integer(ip), intent(in) :: n                   !< length that it must have
 
       is_list = allocated(values)
       if (is_list) is_list = size(values) == n
@@ -57,8 +57,8 @@ contains
    end function is_list_of_reals
 
    pure logical function is_list_of_columns(values, m, n) result(is_list)
-      real(wp), allocatable, intent(in) :: values(:, :)
-      integer(ip), intent(in) :: m, n
+      real(wp), allocatable, intent(in) :: values(:, :) !< as the file has it
+      integer(ip), intent(in) :: m, n                   !< shape that it must have
       integer(ip) :: i
 
       is_list = allocated(values)
@@ -70,16 +70,16 @@ contains
    end function is_list_of_columns
 
    pure logical function is_list_of_integers(values, n) result(is_list)
-      integer(ip), allocatable, intent(in) :: values(:)
-      integer(ip), intent(in) :: n
+      integer(ip), allocatable, intent(in) :: values(:) !< as the file has it
+      integer(ip), intent(in) :: n                      !< length that it must have
 
       is_list = allocated(values)
       if (is_list) is_list = size(values) == n
    end function is_list_of_integers
 
    pure logical function is_list_of_logicals(values, n) result(is_list)
-      logical, allocatable, intent(in) :: values(:)
-      integer(ip), intent(in) :: n
+      logical, allocatable, intent(in) :: values(:) !< as the file has it
+      integer(ip), intent(in) :: n                  !< length that it must have
 
       is_list = allocated(values)
       if (is_list) is_list = size(values) == n
@@ -87,8 +87,8 @@ contains
 
    !> Whether a text is there, and is the one that the deck gives, blanks at its end included.
    pure logical function is_text(text, expected)
-      character(len=:), allocatable, intent(in) :: text
-      character(len=*), intent(in) :: expected
+      character(len=:), allocatable, intent(in) :: text !< as the file has it
+      character(len=*), intent(in) :: expected          !< as the deck gives it
 
       is_text = allocated(text)
       if (is_text) is_text = len(text) == len(expected) .and. text == expected
@@ -96,16 +96,16 @@ contains
 
    !> A line without control characters; what is not allocated has none.
    pure logical function is_plain(text)
-      character(len=:), allocatable, intent(in) :: text
+      character(len=:), allocatable, intent(in) :: text !< as the file has it
 
       is_plain = .true.
       if (allocated(text)) is_plain = .not. has_controls(text) .and. scan(text, achar(9)//achar(10)//achar(13)) == 0
    end function is_plain
 
-   !> The same of a list that need not be there.
+   !> Whether a list is not there, or is one of so many finite numbers (is_list).
    pure logical function may_be(values, n)
-      real(wp), allocatable, intent(in) :: values(:)
-      integer(ip), intent(in) :: n
+      real(wp), allocatable, intent(in) :: values(:) !< as the file has it
+      integer(ip), intent(in) :: n                   !< length that it must have
 
       may_be = .not. allocated(values)
       if (.not. may_be) may_be = is_list(values, n)

@@ -12,8 +12,8 @@ module atrito_recorder
    type, abstract :: recorder_t
       integer(ip) :: every = 0                       !< so many increments, and the ends of steps, are recorded; 0: none
       logical :: resumes = .false.                   !< the history goes on behind `state`; `found` is what was found before
-      type(restart_state_t) :: state
-      type(history_t) :: found
+      type(restart_state_t) :: state                 !< behind the last increment that was recorded
+      type(history_t) :: found                       !< until then
       character(len=:), allocatable :: source        !< where both come from, for messages
       type(string_t), allocatable :: observed(:)     !< names of what is observed; not allocated: nothing
    contains
@@ -24,9 +24,9 @@ module atrito_recorder
       !> An increment has converged: all that was found so far, and the state behind it. Neither is changed.
       subroutine record_increment(self, history, state)
          import :: recorder_t, history_t, restart_state_t
-         class(recorder_t), intent(inout) :: self
-         type(history_t), intent(inout) :: history
-         type(restart_state_t), intent(inout) :: state
+         class(recorder_t), intent(inout) :: self      !< notes what it records
+         type(history_t), intent(inout) :: history     !< all increments so far
+         type(restart_state_t), intent(inout) :: state !< behind the last of them
       end subroutine record_increment
    end interface
 

@@ -19,10 +19,10 @@ contains
 
    !> Sets where motions begin that were free in the step before.
    pure subroutine begin_motions_from(model, before, last, prescribed)
-      type(model_t), intent(in) :: model
-      type(nodal_values_t), intent(in) :: before           !< prescribed in the step before
+      type(model_t), intent(in) :: model                       !< its rigid bodies are read
+      type(nodal_values_t), intent(in) :: before               !< prescribed in the step before
       type(rigid_result_t), allocatable, intent(in) :: last(:) !< at its end
-      type(nodal_values_t), intent(inout) :: prescribed    !< in this step
+      type(nodal_values_t), intent(inout) :: prescribed        !< in this step
       logical :: was_prescribed(3)
       real(wp) :: motion(3)
       integer(ip) :: i, k, m

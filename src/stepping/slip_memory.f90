@@ -19,9 +19,9 @@ contains
 
    !> Nothing has slipped yet.
    pure subroutine begin_memory(model, n_points, memory)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model             !< laws of its pairs are read
       integer(ip), intent(in) :: n_points(:)         !< of each pair
-      type(slip_memory_t), intent(out) :: memory
+      type(slip_memory_t), intent(out) :: memory     !< zeros
       integer(ip) :: i, n, first
 
       n = sum(n_points)
@@ -37,10 +37,10 @@ contains
 
    !> Takes a converged increment over: rest slips, dissipation, and what each point has slipped since the one before.
    pure subroutine remember_slips(line, tau, contact, memory)
-      type(contact_line_t), intent(in) :: line
+      type(contact_line_t), intent(in) :: line            !< laws of the points are read
       real(wp), intent(in) :: tau(:)                 !< (points) friction bound that it was solved with [F/L^2]
       type(contact_result_t), intent(inout) :: contact(:) !< one a pair
-      type(slip_memory_t), intent(inout) :: memory
+      type(slip_memory_t), intent(inout) :: memory        !< takes the increment over
       integer(ip) :: i, j, first
 
       first = 0
@@ -87,8 +87,8 @@ contains
 
    !> The contact line learns the rest slips of its laws, and how far its pairs have moved.
    pure subroutine put_rest(memory, line)
-      type(slip_memory_t), intent(in) :: memory
-      type(contact_line_t), intent(inout) :: line
+      type(slip_memory_t), intent(in) :: memory   !< of begin_memory
+      type(contact_line_t), intent(inout) :: line !< its rest slips and ways are set
       integer(ip) :: j
 
       if (.not. allocated(line%rest)) allocate (line%rest(line%n), line%shear_before(line%n), line%moved(line%n))

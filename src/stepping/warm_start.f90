@@ -15,8 +15,8 @@ contains
 
    !> What the next increment starts from; nothing where rows depend on each other.
    pure subroutine put_start(solution, start)
-      type(contact_solution_t), intent(in) :: solution
-      type(warm_start_t), intent(out) :: start
+      type(contact_solution_t), intent(in) :: solution !< of the increment that converged
+      type(warm_start_t), intent(out) :: start         !< form 0: nothing to start from
 
       if (allocated(solution%rows) .or. .not. allocated(solution%state%q)) return
       start%form = int(solution%form, ip)
@@ -42,8 +42,8 @@ contains
 
    !> A solution without factors: the first step makes one. Not allocated: there is none to start from.
    pure subroutine take_start(start, solution)
-      type(warm_start_t), intent(in) :: start
-      type(contact_solution_t), allocatable, intent(out) :: solution
+      type(warm_start_t), intent(in) :: start                        !< of put_start, or of a file
+      type(contact_solution_t), allocatable, intent(out) :: solution !< counts as converged
 
       if (start%form == 0) return
       allocate (solution)

@@ -16,8 +16,8 @@ contains
 
    !> Writes the names of the columns.
    subroutine put_csv_names(file, table)
-      type(text_file_t), intent(inout) :: file
-      type(table_t), intent(in) :: table
+      type(text_file_t), intent(inout) :: file !< open; gets the first row
+      type(table_t), intent(in) :: table       !< names of its columns
       character(len=:), allocatable :: line
       integer :: i
 
@@ -32,9 +32,9 @@ contains
 
    !> Writes rows that are laid out already, each column at its place of the line.
    subroutine put_csv_rows(file, table, rows)
-      type(text_file_t), intent(inout) :: file
-      type(table_t), intent(in) :: table
-      character(len=*), contiguous, intent(in) :: rows(:)
+      type(text_file_t), intent(inout) :: file            !< open; gets the rows
+      type(table_t), intent(in) :: table                  !< its columns have their places
+      character(len=*), contiguous, intent(in) :: rows(:) !< lines of text, a row each
       character(len=:), allocatable :: line
       integer :: i, row, last, first
 
@@ -79,7 +79,7 @@ contains
 
    !> A spreadsheet computes what begins so, unless it is a number; some take the wide forms of the signs, too (three bytes).
    pure logical function is_formula(item)
-      character(len=*), intent(in) :: item
+      character(len=*), intent(in) :: item !< as it would stand in the file
       character(len=*), parameter :: SIGNS = '=+-@'//achar(9)//achar(13)
       real(wp) :: value
       integer :: outcome

@@ -13,7 +13,7 @@ module atrito_energy_report
 
    !> Halves of works, on the way from the bodies as they were drawn [F L].
    type :: energies_t
-      real(wp) :: strain = 0.0_wp
+      real(wp) :: strain = 0.0_wp                !< of all bodies
       real(wp) :: external = 0.0_wp              !< of loads and supports
       real(wp) :: friction = 0.0_wp              !< of the shears
       real(wp) :: pressure = 0.0_wp              !< of the pressures: over initial gaps, and in what a penalty lets in
@@ -29,8 +29,8 @@ contains
 
    !> Adds up what the points of a frame tell.
    pure type(energies_t) function find_energies(model, results) result(found)
-      type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
+      type(model_t), intent(in) :: model     !< gaps of the points before the loads are read
+      type(results_t), intent(in) :: results !< of one increment
       real(wp) :: parts
       integer(ip) :: i
 
@@ -60,10 +60,10 @@ contains
 
    !> A line each, and whether they add up.
    subroutine describe_energies(page, model, results, scales)
-      type(page_t), intent(inout) :: page
-      type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
-      type(scales_t), intent(in) :: scales
+      type(page_t), intent(inout) :: page    !< the lines are added to it
+      type(model_t), intent(in) :: model     !< gaps of the points, temperatures
+      type(results_t), intent(in) :: results !< of one increment
+      type(scales_t), intent(in) :: scales   !< of the history: what is nothing beside them is 0
       type(energies_t) :: e
       character(len=:), allocatable :: reasons
       integer :: i

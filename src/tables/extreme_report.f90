@@ -18,8 +18,8 @@ contains
    !> A row a quantity.
    subroutine build_extremes(results, scales, table)
       type(results_t), intent(in) :: results        !< with extremes
-      type(scales_t), intent(in) :: scales
-      type(table_t), intent(out) :: table
+      type(scales_t), intent(in) :: scales          !< of the history: what is nothing beside them is 0
+      type(table_t), intent(out) :: table           !< a row a quantity
       type(string_t) :: names(size(results%extremes))
       real(wp) :: values(size(results%extremes))
       integer(ip) :: i, n
@@ -59,9 +59,9 @@ contains
 
    !> For the listing: all of them.
    subroutine describe_extremes(page, results, scales)
-      type(page_t), intent(inout) :: page
-      type(results_t), intent(in) :: results
-      type(scales_t), intent(in) :: scales
+      type(page_t), intent(inout) :: page    !< the lines are added to it
+      type(results_t), intent(in) :: results !< of one increment; without extremes nothing is told
+      type(scales_t), intent(in) :: scales   !< of the history: what is nothing beside them is 0
       type(grid_t) :: grid
       real(wp) :: value(1), x(2)
       integer :: i
@@ -90,8 +90,8 @@ contains
 
    !> For the screen: the largest displacement and the largest stress.
    subroutine add_extremes(page, results)
-      type(page_t), intent(inout) :: page
-      type(results_t), intent(in) :: results
+      type(page_t), intent(inout) :: page    !< two lines are added to it
+      type(results_t), intent(in) :: results !< of one increment; without extremes nothing is told
       integer :: i
 
       if (.not. allocated(results%extremes)) return

@@ -35,10 +35,10 @@ contains
 
    !> Whether a frame has rows in a table: its step asks for them and they are due, or it is the last, whatever that is.
    pure logical function has_frame_rows(model, frame, name, is_last) result(has)
-      type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: frame
-      character(len=*), intent(in) :: name
-      logical, intent(in) :: is_last
+      type(model_t), intent(in) :: model   !< what its steps ask for is read
+      type(results_t), intent(in) :: frame !< of one increment
+      character(len=*), intent(in) :: name !< of the table
+      logical, intent(in) :: is_last       !< the last frame of the history
       character(len=*), parameter :: ALONE(8) = [character(len=12) :: 'nodes', 'reactions', 'stress', 'nodal_stress', 'bodies', &
                                                                                                        'joints', 'sections', 'path']
       integer(ip) :: frequencies(0:size(ALONE))
@@ -79,12 +79,12 @@ contains
 
    !> The rows of a frame in a table; the table may point at the fields of model and frame.
    subroutine build_frame_table(model, frame, scales, own, name, table)
-      type(model_t), intent(in), target :: model
-      type(results_t), intent(in), target :: frame
+      type(model_t), intent(in), target :: model    !< stays while the table is in use
+      type(results_t), intent(in), target :: frame  !< of one increment; stays while the table is in use
       type(scales_t), intent(in) :: scales          !< of the history
       type(scales_t), intent(in) :: own(:)          !< of each pair
-      character(len=*), intent(in) :: name
-      type(table_t), intent(out) :: table
+      character(len=*), intent(in) :: name          !< of the table
+      type(table_t), intent(out) :: table           !< rows of the frame; the last column is their increment
 
       select case (name)
       case ('contact')
@@ -255,8 +255,8 @@ contains
 
    !> Places in results%stress of the points of these elements; all where nothing is said.
    pure function stress_rows(results, mask) result(list)
-      type(results_t), intent(in) :: results
-      logical, allocatable, intent(in) :: mask(:)
+      type(results_t), intent(in) :: results      !< with stresses at points
+      logical, allocatable, intent(in) :: mask(:) !< (n_elements) those asked for; not allocated: all
       integer(ip), allocatable :: list(:)
       integer(ip) :: i
 
@@ -432,9 +432,9 @@ contains
 
    !> The values of a path: (rows, PATH_COLUMNS).
    pure function path_values(model, results, path) result(values)
-      type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
-      type(path_t), intent(in) :: path
+      type(model_t), intent(in) :: model     !< elements and their nodes are read
+      type(results_t), intent(in) :: results !< displacements, and stresses at the nodes
+      type(path_t), intent(in) :: path       !< points, elements that hold them, directions
       real(wp) :: values(size(path%place), size(PATH_COLUMNS))
       type(place_values_t) :: at
       integer :: i, k

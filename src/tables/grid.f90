@@ -26,8 +26,8 @@ contains
 
    !> A grid with its head and no rows. The first n_left columns are words, to the left; the others are numbers, to the right.
    pure subroutine begin_grid(grid, n_left, head)
-      type(grid_t), intent(out) :: grid
-      integer, intent(in) :: n_left
+      type(grid_t), intent(out) :: grid             !< its head alone
+      integer, intent(in) :: n_left                 !< >= 0
       character(len=*), intent(in) :: head          !< names of the columns, CELL between them
 
       grid%n_left = n_left
@@ -38,7 +38,7 @@ contains
 
    !> One more row, with as many cells as the head has.
    pure subroutine add_row(grid, cells)
-      type(grid_t), intent(inout) :: grid
+      type(grid_t), intent(inout) :: grid           !< begun; gets one row more
       character(len=*), intent(in) :: cells         !< CELL between them
 
       call append_string(grid%rows, cells)
@@ -46,7 +46,7 @@ contains
 
    !> Puts it on a page.
    pure subroutine put_grid(page, grid)
-      type(page_t), intent(inout) :: page
+      type(page_t), intent(inout) :: page           !< the lines are added to it, in its units
       type(grid_t), intent(inout) :: grid           !< its units get their names
       integer, allocatable :: ends(:, :), width(:)
       integer :: first, last, i, k, n
@@ -98,8 +98,8 @@ contains
 
    !> `[F/L^2]` is `[kN/m^2]` where the deck names its units.
    pure subroutine name_units(units, line)
-      type(units_t), intent(in) :: units
-      character(len=:), allocatable, intent(inout) :: line
+      type(units_t), intent(in) :: units                   !< names of the units of the deck; may be none
+      character(len=:), allocatable, intent(inout) :: line !< [..] in F and L are replaced
       character(len=:), allocatable :: name
       integer :: begin, end, next
 
@@ -145,8 +145,8 @@ contains
 
    !> A table of results but for some of its columns; of many rows the least and the greatest value of each column.
    subroutine put_table(page, table, without)
-      type(page_t), intent(inout) :: page
-      type(table_t), intent(in) :: table
+      type(page_t), intent(inout) :: page           !< the lines are added to it
+      type(table_t), intent(in) :: table            !< its columns and rows are read
       character(len=*), intent(in) :: without       !< ' step increment ', names with blanks round them
       type(grid_t) :: grid
       character(len=:), allocatable :: text

@@ -18,10 +18,10 @@ contains
 
    !> A row a quantity of a frame: the pairs, then the step as pair 0.
    subroutine build_summary(frame, own, digits, table)
-      type(results_t), intent(in) :: frame
+      type(results_t), intent(in) :: frame          !< of one increment
       type(scales_t), intent(in) :: own(:)          !< of each pair
-      integer, intent(in) :: digits
-      type(table_t), intent(out) :: table
+      integer, intent(in) :: digits                 !< significant digits, 6..17
+      type(table_t), intent(out) :: table           !< step, pair, quantity, value, increment
       type(quantity_t), allocatable :: list(:)
       integer(ip), allocatable :: pair(:)
       type(string_t), allocatable :: names(:), values(:)
@@ -78,8 +78,8 @@ contains
 
    !> Notes the names of a frame's quantities by their dimensions, each once, in the order in which they come.
    subroutine note_quantities(frame, own, names)
-      type(results_t), intent(in) :: frame
-      type(scales_t), intent(in) :: own(:)          !< of each pair
+      type(results_t), intent(in) :: frame                   !< of one increment
+      type(scales_t), intent(in) :: own(:)                   !< of each pair
       type(string_t), allocatable, intent(inout) :: names(:) !< (dimensions) with blanks before each; not allocated: none so far
       type(quantity_t), allocatable :: list(:)
       integer(ip), allocatable :: pair(:)
@@ -115,7 +115,7 @@ contains
    subroutine build_history(history, length, table)
       type(history_t), intent(in) :: history        !< with rows, or with what was observed
       real(wp), intent(in) :: length                !< largest coordinate [L]
-      type(table_t), intent(out) :: table
+      type(table_t), intent(out) :: table           !< step, increment, time, and what is known of each
       integer(ip) :: i
 
       associate (list => history%observed)
@@ -218,8 +218,8 @@ contains
 
    !> A row an inner solve.
    subroutine build_iterations(history, table)
-      type(history_t), intent(in) :: history
-      type(table_t), intent(out) :: table
+      type(history_t), intent(in) :: history !< with all frames
+      type(table_t), intent(out) :: table    !< a row an inner solve
       type(iteration_t), allocatable :: rows(:)
 
       rows = all_iterations(history)

@@ -11,7 +11,7 @@ module atrito_increments
    integer, parameter :: TIME_DIGITS = 10
 
    type :: increment_t
-      integer(ip) :: step = 1, increment = 1
+      integer(ip) :: step = 1, increment = 1       !< from 1; increments count within the step
       real(wp) :: time = 0.0_wp                    !< of the history
       integer(ip) :: outer = 0                     !< outer iterations; 0: none are known
       real(wp) :: residual = 0.0_wp                !< of the friction bounds at their end
@@ -21,7 +21,7 @@ contains
 
    !> All increments that converged, in the order of time; without contact, which history has rows of, those that are printed.
    pure function list_increments(history) result(list)
-      type(history_t), intent(in) :: history
+      type(history_t), intent(in) :: history !< with rows, or with frames
       type(increment_t), allocatable :: list(:)
       integer(ip) :: n, i
       logical :: has_rows
@@ -73,7 +73,7 @@ contains
 
    !> The iterations of all increments: those of the history, or, where it has none, those of its frames.
    pure function all_iterations(history) result(rows)
-      type(history_t), intent(in) :: history
+      type(history_t), intent(in) :: history !< with iterations, or with frames that have them
       type(iteration_t), allocatable :: rows(:), own(:)
       integer :: i
 
@@ -93,8 +93,8 @@ contains
 
    !> More than one increment, a deck of several steps, or an end before the end.
    pure logical function has_history(model, history)
-      type(model_t), intent(in) :: model
-      type(history_t), intent(in) :: history
+      type(model_t), intent(in) :: model     !< its steps are counted
+      type(history_t), intent(in) :: history !< with all frames
 
       has_history = size(model%steps) > 1 .or. size(history%frames) > 1 .or. history%ending%is_early
       if (.not. has_history) has_history = size(list_increments(history)) > 1
@@ -102,8 +102,8 @@ contains
 
    !> `step 2, increment 5, time 1.25`
    pure function increment_name(step, increment, time) result(text)
-      integer(ip), intent(in) :: step, increment
-      real(wp), intent(in) :: time
+      integer(ip), intent(in) :: step, increment !< from 1; increments count within the step
+      real(wp), intent(in) :: time               !< of the history
       character(len=:), allocatable :: text
 
       text = 'step '//to_text(step)//', increment '//to_text(increment)//', time '//time_text(time)
@@ -111,7 +111,7 @@ contains
 
    !> A time for readers, in so many digits that increments differ.
    pure function time_text(time) result(text)
-      real(wp), intent(in) :: time
+      real(wp), intent(in) :: time !< of the history
       character(len=:), allocatable :: text
 
       text = to_text(time, TIME_DIGITS)
@@ -119,7 +119,7 @@ contains
 
    !> `ended in step 2, increment 5, time 1.25: reason`, in one line; '' where the history did not end early.
    pure function ending_text(history) result(text)
-      type(history_t), intent(in) :: history
+      type(history_t), intent(in) :: history !< its ending is read
       character(len=:), allocatable :: text
       integer :: i
 

@@ -10,7 +10,7 @@ module atrito_libraries
    public :: library_t, add_libraries, list_libraries, version_lines, LOADED
 
    type :: library_t
-      character(len=8) :: name = ''
+      character(len=8) :: name = ''                 !< what it is, e.g. BLAS
       character(len=:), allocatable :: version      !< or why there is none
    end type library_t
 
@@ -22,7 +22,7 @@ contains
 
    !> What the program itself has besides, for all lists: before any of them is made.
    subroutine add_libraries(others)
-      type(library_t), intent(in) :: others(:)
+      type(library_t), intent(in) :: others(:) !< they stand behind all others
 
       besides = others
    end subroutine add_libraries
@@ -30,9 +30,9 @@ contains
    !> Compiler, BLAS, LAPACK, Clp and METIS, and what the program has besides (add_libraries). A library that a run does not need is
    !> not loaded to ask for it.
    subroutine list_libraries(of_run, list, uses_metis)
-      logical, intent(in) :: of_run                 !< those of a run; else what this build could use
-      type(library_t), allocatable, intent(out) :: list(:)
-      logical, intent(in), optional :: uses_metis   !< a run does; default: no
+      logical, intent(in) :: of_run                        !< those of a run; else what this build could use
+      type(library_t), allocatable, intent(out) :: list(:) !< name and version, or why there is none
+      logical, intent(in), optional :: uses_metis          !< a run does; default: no
 
       allocate (list(5))
       list%name = [character(len=8) :: 'compiler', 'BLAS', 'LAPACK', 'Clp', 'METIS']
@@ -57,7 +57,7 @@ contains
 
    !> What `--version` prints below the name of the program: `BLAS: OpenBLAS 0.3.21 ...`
    subroutine version_lines(lines)
-      type(string_t), allocatable, intent(out) :: lines(:)
+      type(string_t), allocatable, intent(out) :: lines(:) !< a line a library
       type(library_t), allocatable :: list(:)
       integer :: i
 

@@ -46,10 +46,10 @@ contains
    !>
    !> status: STATUS_FILE when it could not be written.
    subroutine write_listing(model, history, set, status, pictures)
-      type(model_t), intent(in) :: model
-      type(history_t), intent(in) :: history
-      type(file_set_t), intent(inout) :: set
-      type(status_t), intent(out) :: status
+      type(model_t), intent(in) :: model                     !< as solved
+      type(history_t), intent(in) :: history                 !< with all frames; it is not empty
+      type(file_set_t), intent(inout) :: set                 !< begun; gets the listing
+      type(status_t), intent(out) :: status                  !< STATUS_FILE where it could not be written
       type(string_t), intent(in), optional :: pictures(:)    !< that are drawn after the listing, names without ending
       type(page_t) :: page
       type(text_file_t) :: file
@@ -65,9 +65,9 @@ contains
 
    !> Composes the listing, without writing it.
    subroutine compose_listing(model, history, page, pictures)
-      type(model_t), intent(in) :: model
-      type(history_t), intent(in) :: history
-      type(page_t), intent(out) :: page
+      type(model_t), intent(in) :: model                     !< as solved
+      type(history_t), intent(in) :: history                 !< with all frames; it is not empty
+      type(page_t), intent(out) :: page                      !< lines of at most 80 columns
       type(string_t), intent(in), optional :: pictures(:)    !< that are drawn after the listing, names without ending
       type(scales_t) :: scales
       type(scales_t), allocatable :: own(:)

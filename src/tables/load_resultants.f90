@@ -15,8 +15,8 @@ module atrito_load_resultants
 
    !> A resultant [F] and its moment about the origin [F L].
    type :: force_t
-      real(wp) :: f(2) = 0.0_wp
-      real(wp) :: moment = 0.0_wp
+      real(wp) :: f(2) = 0.0_wp                     !< along x and y [F]
+      real(wp) :: moment = 0.0_wp                   !< about the origin [F L]
       real(wp) :: terms = 0.0_wp                    !< sum of the sizes of what was added [F]
    end type force_t
 
@@ -24,7 +24,7 @@ contains
 
    !> Resultants of the three kinds of load at the end of a step.
    pure subroutine load_resultants(model, concentrated, pressure, body, step)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model            !< loads, amplitudes and mesh are read
       type(force_t), intent(out) :: concentrated    !< on nodes
       type(force_t), intent(out) :: pressure        !< on element faces
       type(force_t), intent(out) :: body            !< in elements, on the polygon of the corners
@@ -65,8 +65,8 @@ contains
 
    !> Whether a node is that of a pre-tension section.
    pure logical function is_section_node(model, node) result(is)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: node
+      type(model_t), intent(in) :: model !< its rigid bodies are read
+      integer(ip), intent(in) :: node    !< place in the mesh
 
       is = .false.
       if (allocated(model%rigid_bodies)) is = any(model%rigid_bodies%is_section .and. model%rigid_bodies%node == node)
@@ -74,9 +74,9 @@ contains
 
    !> An entry of a list at the end of a step.
    pure real(wp) function last_value(model, k, list, i) result(value)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model            !< its steps and amplitudes are read
       integer(ip), intent(in) :: k, i               !< the step; the entry
-      type(nodal_values_t), intent(in) :: list
+      type(nodal_values_t), intent(in) :: list      !< loads or prescribed displacements of the step
 
       value = list%value(i)
       if (allocated(list%amplitude)) value = value*last_factor(model, k, list%amplitude(i))
@@ -84,18 +84,18 @@ contains
 
    !> What an amplitude multiplies by at the end of a step.
    pure real(wp) function last_factor(model, k, amplitude) result(factor)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: k, amplitude
+      type(model_t), intent(in) :: model      !< its steps and amplitudes are read
+      integer(ip), intent(in) :: k, amplitude !< the step; place in amplitudes, 0: none
 
       factor = factor_at(model%amplitudes, amplitude, model%steps(k)%increments%period, time_before(model%steps, k + 1))
    end function last_factor
 
    !> Adds the resultant of one load.
    pure subroutine add_element_load(model, loads, i, force)
-      type(model_t), intent(in) :: model
-      type(element_load_t), intent(in) :: loads
+      type(model_t), intent(in) :: model            !< its mesh and sections are read
+      type(element_load_t), intent(in) :: loads     !< on faces or in elements, with their full values
       integer(ip), intent(in) :: i                  !< place in loads
-      type(force_t), intent(inout) :: force
+      type(force_t), intent(inout) :: force         !< is added to
       logical :: tapers                             ! no simple formula knows where the resultant goes through
 
       tapers = IS_TAPERED(model%mesh%state(loads%element(i)))
@@ -121,7 +121,7 @@ contains
 
    !> Adds a force at a place.
    pure subroutine add_to(force, f, x)
-      type(force_t), intent(inout) :: force
+      type(force_t), intent(inout) :: force         !< is added to
       real(wp), intent(in) :: f(2)                  !< [F]
       real(wp), intent(in) :: x(2)                  !< [L]
 
@@ -132,8 +132,8 @@ contains
 
    !> Adds a force along a dof (1, 2), or a moment (6), at a place.
    pure subroutine add_value(force, dof, value, x)
-      type(force_t), intent(inout) :: force
-      integer(ip), intent(in) :: dof
+      type(force_t), intent(inout) :: force         !< is added to
+      integer(ip), intent(in) :: dof                !< 1, 2 or 6
       real(wp), intent(in) :: value                 !< [F], [F L]
       real(wp), intent(in) :: x(2)                  !< [L]
       real(wp) :: f(2)

@@ -26,8 +26,8 @@ contains
 
    !> Everything that was read: counts, parameters, materials, sections, supports, loads, interactions, method.
    subroutine describe_model(page, model)
-      type(page_t), intent(inout) :: page
-      type(model_t), intent(in) :: model
+      type(page_t), intent(inout) :: page !< the lines are added to it
+      type(model_t), intent(in) :: model  !< as read, refined if that was asked
 
       call describe_counts(page, model)
       call describe_instances(page, model)
@@ -41,8 +41,8 @@ contains
 
    !> How much there is of each kind.
    subroutine describe_counts(page, model)
-      type(page_t), intent(inout) :: page
-      type(model_t), intent(in) :: model
+      type(page_t), intent(inout) :: page !< the lines are added to it
+      type(model_t), intent(in) :: model  !< mesh, sets, materials and pairs are counted
       character(len=:), allocatable :: text
       integer(ip) :: rigid
 
@@ -86,8 +86,8 @@ contains
 
    !> The instances of parts: what their numbers are here, and where they stand.
    subroutine describe_instances(page, model)
-      type(page_t), intent(inout) :: page
-      type(model_t), intent(in) :: model
+      type(page_t), intent(inout) :: page !< the lines are added to it
+      type(model_t), intent(in) :: model  !< its instances are read
       type(grid_t) :: grid
       integer(ip) :: i
 
@@ -226,8 +226,8 @@ contains
 
    !> What acts in each step; of a single one that is a single increment without more words.
    subroutine describe_steps(page, model, most)
-      type(page_t), intent(inout) :: page
-      type(model_t), intent(in) :: model
+      type(page_t), intent(inout) :: page            !< the lines are added to it
+      type(model_t), intent(in) :: model             !< its steps are read
       integer(ip), intent(in), optional :: most      !< so many of the first; left out: all
       character(len=:), allocatable :: title
       integer(ip) :: k, n
@@ -256,7 +256,7 @@ contains
 
    !> Several steps, or several increments of one.
    pure logical function is_history(model)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model !< its steps are read; it has one at least
 
       is_history = size(model%steps) > 1
       if (.not. is_history) is_history = model%steps(1)%increments%initial < model%steps(1)%increments%period

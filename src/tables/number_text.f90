@@ -36,7 +36,7 @@ contains
 
    !> Width of the field of an integer.
    elemental integer function integer_width(i)
-      integer(ip), intent(in) :: i
+      integer(ip), intent(in) :: i !< any integer
       integer(lp) :: rest
 
       integer_width = merge(2, 1, i < 0)
@@ -49,7 +49,7 @@ contains
 
    !> Writes a real to the right end of a field that is blank: d.ddde+dd, `0`, `nan` or `inf`.
    pure subroutine put_real(x, digits, field)
-      real(wp), intent(in) :: x
+      real(wp), intent(in) :: x                    !< any double
       integer, intent(in) :: digits                !< LEAST_DIGITS..MOST_DIGITS
       character(len=*), intent(inout) :: field     !< at least real_width(digits) long
       integer(lp) :: mantissa
@@ -68,7 +68,7 @@ contains
 
    !> Writes a column of reals: one to a field, which is blank, of each line.
    pure subroutine put_reals(x, smallest, digits, first, last, lines)
-      real(wp), intent(in) :: x(:)
+      real(wp), intent(in) :: x(:)                 !< (n) any doubles
       real(wp), intent(in) :: smallest             !< what is smaller is written as 0; >= 0
       integer, intent(in) :: digits                !< LEAST_DIGITS..MOST_DIGITS
       integer, intent(in) :: first, last           !< the field, at least real_width(digits) wide
@@ -100,7 +100,7 @@ contains
 
    !> Writes a column of integers: one to a field, which is blank, of each line.
    pure subroutine put_integers(list, first, last, lines)
-      integer(ip), intent(in) :: list(:)
+      integer(ip), intent(in) :: list(:)           !< (n) any integers
       integer, intent(in) :: first, last           !< the field, wide enough for each
       character(len=*), intent(inout) :: lines(:)  !< (size(list))
       integer(ip) :: i
@@ -125,7 +125,7 @@ contains
 
    !> Writes an integer to the right end of a field that is blank.
    pure subroutine put_integer(i, field)
-      integer(ip), intent(in) :: i
+      integer(ip), intent(in) :: i                 !< any integer
       character(len=*), intent(inout) :: field     !< at least integer_width(i) long
       integer(lp) :: rest
       integer :: place
@@ -143,8 +143,8 @@ contains
 
    !> A real without blanks round it.
    pure function trimmed_real(x, digits) result(text)
-      real(wp), intent(in) :: x
-      integer, intent(in) :: digits
+      real(wp), intent(in) :: x     !< any double
+      integer, intent(in) :: digits !< LEAST_DIGITS..MOST_DIGITS
       character(len=:), allocatable :: text
       character(len=MOST_DIGITS + 7) :: field
 
@@ -155,7 +155,7 @@ contains
 
    !> A real for people, letter for letter what to_text makes of it, in a tenth of the time.
    pure function short_real(x, digits) result(text)
-      real(wp), intent(in) :: x
+      real(wp), intent(in) :: x                    !< finite
       integer, intent(in) :: digits                !< 1..MOST_DIGITS
       character(len=:), allocatable :: text
       integer(lp) :: mantissa

@@ -15,7 +15,7 @@ module atrito_page
 
    type :: page_t
       integer :: width = 80                         !< columns
-      integer :: n = 0
+      integer :: n = 0                              !< lines so far
       type(string_t), allocatable :: lines(:)       !< the first n are in use
       type(units_t) :: units                        !< that have names
    end type page_t
@@ -29,7 +29,7 @@ contains
 
    !> An empty page.
    pure subroutine begin_page(page, width)
-      type(page_t), intent(out) :: page
+      type(page_t), intent(out) :: page             !< has no lines yet
       integer, intent(in) :: width                  !< columns
 
       page%width = width
@@ -38,7 +38,7 @@ contains
 
    !> Begins a page for the screen: a rule, and the program with what it did.
    pure subroutine begin_report(page, what)
-      type(page_t), intent(out) :: page
+      type(page_t), intent(out) :: page             !< has the first two lines
       character(len=*), intent(in) :: what          !< with blanks before it
 
       call begin_page(page, SCREEN_WIDTH)
@@ -48,16 +48,16 @@ contains
 
    !> `label     value`, cut where there is no room.
    pure subroutine add_item(page, label, value)
-      type(page_t), intent(inout) :: page
-      character(len=*), intent(in) :: label, value
+      type(page_t), intent(inout) :: page          !< gets one line more
+      character(len=*), intent(in) :: label, value !< at most 12 letters; any text
 
       call add_line(page, left(left(label, ITEM_WIDTH)//value, page%width))
    end subroutine add_item
 
    !> An item of as many lines as its words take.
    pure subroutine add_remark(page, label, text)
-      type(page_t), intent(inout) :: page
-      character(len=*), intent(in) :: label, text
+      type(page_t), intent(inout) :: page         !< gets some lines more
+      character(len=*), intent(in) :: label, text !< at most 12 letters; any text
       integer :: first
 
       first = page%n + 1
@@ -67,8 +67,8 @@ contains
 
    !> An item before the rule that ends a report.
    pure subroutine add_above_rule(page, label, value)
-      type(page_t), intent(inout) :: page
-      character(len=*), intent(in) :: label, value
+      type(page_t), intent(inout) :: page          !< its last line is the rule
+      character(len=*), intent(in) :: label, value !< at most 12 letters; any text
       character(len=:), allocatable :: rule
 
       rule = page%lines(page%n)%s
@@ -79,9 +79,9 @@ contains
 
    !> The end of a report: the tables and pictures in a folder.
    pure subroutine add_files(page, folder, tables, pictures)
-      type(page_t), intent(inout) :: page
-      character(len=*), intent(in) :: folder, tables
-      type(string_t), intent(in) :: pictures(:)     !< names without folder and ending; none: not told
+      type(page_t), intent(inout) :: page            !< gets the lines and the last rule
+      character(len=*), intent(in) :: folder, tables !< as the user wrote it; names with blanks between them
+      type(string_t), intent(in) :: pictures(:)      !< names without folder and ending; none: not told
 
       call add_item(page, 'tables in', folder)
       call add_item(page, '', tables)
@@ -91,8 +91,8 @@ contains
 
    !> Adds a line; blanks at its end are dropped.
    pure subroutine add_line(page, text)
-      type(page_t), intent(inout) :: page
-      character(len=*), intent(in) :: text
+      type(page_t), intent(inout) :: page  !< gets one line more
+      character(len=*), intent(in) :: text !< in UTF-8, without indentation of its own
       type(string_t), allocatable :: longer(:)
       integer :: i
 
@@ -109,23 +109,23 @@ contains
 
    !> Adds an empty line.
    pure subroutine add_blank(page)
-      type(page_t), intent(inout) :: page
+      type(page_t), intent(inout) :: page !< gets one line more
 
       call add_line(page, '')
    end subroutine add_blank
 
    !> A line across the page.
    pure subroutine add_rule(page, mark)
-      type(page_t), intent(inout) :: page
-      character(len=1), intent(in) :: mark
+      type(page_t), intent(inout) :: page  !< gets one line more
+      character(len=1), intent(in) :: mark !< one letter
 
       call add_line(page, repeat(mark, page%width))
    end subroutine add_rule
 
    !> A heading with a line below it.
    pure subroutine add_heading(page, text)
-      type(page_t), intent(inout) :: page
-      character(len=*), intent(in) :: text
+      type(page_t), intent(inout) :: page  !< gets three lines more
+      character(len=*), intent(in) :: text !< of one line
 
       call add_blank(page)
       call add_line(page, text)
@@ -134,8 +134,8 @@ contains
 
    !> `label ......... value`, the value on lines of its own where there is no room.
    pure subroutine add_entry(page, label, value)
-      type(page_t), intent(inout) :: page
-      character(len=*), intent(in) :: label, value
+      type(page_t), intent(inout) :: page          !< gets one line more, or some
+      character(len=*), intent(in) :: label, value !< what it is; its value with the dimension
 
       character(len=:), allocatable :: start
 
@@ -150,8 +150,8 @@ contains
 
    !> A text broken into lines at its blanks.
    pure subroutine add_paragraph(page, text, margin)
-      type(page_t), intent(inout) :: page
-      character(len=*), intent(in) :: text
+      type(page_t), intent(inout) :: page           !< gets some lines more
+      character(len=*), intent(in) :: text          !< in UTF-8; '': no line
       integer, intent(in) :: margin                 !< blanks before each line
       integer :: first, last, next
 
@@ -165,8 +165,8 @@ contains
 
    !> Prints a page. A failure (a closed pipe, a full disk behind it) is nobody's error.
    subroutine print_page(page, unit)
-      type(page_t), intent(in) :: page
-      integer, intent(in) :: unit
+      type(page_t), intent(in) :: page !< all its lines are printed
+      integer, intent(in) :: unit      !< of Fortran, open
       integer :: i, ios
 
       call hide_line()
@@ -179,8 +179,8 @@ contains
 
    !> A text at the left of a field, cut with dots where it is too long.
    pure function left(text, width) result(field)
-      character(len=*), intent(in) :: text
-      integer, intent(in) :: width
+      character(len=*), intent(in) :: text !< in UTF-8
+      integer, intent(in) :: width         !< letters of the field
       character(len=:), allocatable :: field
       integer :: last, letters
 
@@ -198,8 +198,8 @@ contains
 
    !> A text at the right of a field.
    pure function right(text, width) result(field)
-      character(len=*), intent(in) :: text
-      integer, intent(in) :: width
+      character(len=*), intent(in) :: text !< in UTF-8
+      integer, intent(in) :: width         !< letters; a longer text is not cut
       character(len=:), allocatable :: field
 
       field = repeat(' ', max(0, width - text_width(text)))//text
@@ -207,7 +207,7 @@ contains
 
    !> Letters of a UTF-8 text.
    pure integer function text_width(text) result(width)
-      character(len=*), intent(in) :: text
+      character(len=*), intent(in) :: text !< in UTF-8
       integer :: i
 
       width = 0
@@ -224,7 +224,7 @@ contains
 
    !> A real for people.
    pure function number(x, digits) result(text)
-      real(wp), intent(in) :: x
+      real(wp), intent(in) :: x                     !< any double
       integer, intent(in) :: digits                 !< significant digits
       character(len=:), allocatable :: text
 
@@ -239,7 +239,7 @@ contains
 
    !> Bytes for people.
    pure function bytes(n) result(text)
-      integer(lp), intent(in) :: n
+      integer(lp), intent(in) :: n !< bytes, >= 0
       character(len=:), allocatable :: text
       integer(lp), parameter :: KIB = 1024_lp, MIB = KIB*KIB, GIB = KIB*MIB
 
@@ -256,8 +256,8 @@ contains
 
    !> `1 body`, `2 bodies`.
    pure function plural(n, one, many) result(text)
-      integer(ip), intent(in) :: n
-      character(len=*), intent(in) :: one, many
+      integer(ip), intent(in) :: n              !< how many, >= 0
+      character(len=*), intent(in) :: one, many !< of one; of several and of none
       character(len=:), allocatable :: text
 
       text = to_text(n)//' '//many

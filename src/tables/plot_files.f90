@@ -57,7 +57,7 @@ contains
 
    !> The folder of solution k, below that of the run, which has the first.
    pure function solution_folder(folder, k) result(path)
-      character(len=*), intent(in) :: folder
+      character(len=*), intent(in) :: folder        !< of the tables of the run
       integer(ip), intent(in) :: k                  !< 2, 3, ..
       character(len=:), allocatable :: path
 
@@ -75,9 +75,9 @@ contains
 
    !> Opens the data of a picture in a set of files; the first line says whose they are.
    subroutine open_data(set, name, file)
-      type(file_set_t), intent(inout) :: set
+      type(file_set_t), intent(inout) :: set        !< begun in the folder of pictures; gets the file
       character(len=*), intent(in) :: name          !< without .dat
-      type(text_file_t), intent(out) :: file
+      type(text_file_t), intent(out) :: file        !< open, with its first line
 
       call open_text(set, name//'.dat', file)
       call put_line(file, OWN_MARK//PROGRAM_VERSION//': data of a picture')
@@ -86,7 +86,7 @@ contains
    !> Whether what a set of scripts is going to replace, and the pictures that gnuplot writes beside them, is atrito's.
    !> status: STATUS_FILE.
    subroutine check_scripts(set, status)
-      type(file_set_t), intent(in) :: set
+      type(file_set_t), intent(in) :: set           !< scripts are reserved in it, not committed
       type(status_t), intent(inout) :: status       !< nothing is asked where it is not STATUS_OK
       character(len=4), allocatable :: endings(:)
       integer :: i, k, n

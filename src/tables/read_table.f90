@@ -21,17 +21,17 @@ module atrito_read_table
 
    !> A table as it stands in its file.
    type :: table_file_t
-      character(len=:), allocatable :: name            !< file name without folder
-      logical :: is_csv = .false.                      !< its head is a file beside it
-      logical :: has_head = .false.                    !< else it does not tell whether the run converged, and of what
-      type(string_t) :: head(size(HEAD_NAMES))         !< what it says; '': nothing
-      logical :: not_converged = .false.
-      type(string_t), allocatable :: columns(:)        !< their names
-      integer(ip) :: n_columns = 0, n_rows = 0
-      character(len=:), allocatable :: text
+      character(len=:), allocatable :: name               !< file name without folder
+      logical :: is_csv = .false.                         !< its head is a file beside it
+      logical :: has_head = .false.                       !< else it does not tell whether the run converged, and of what
+      type(string_t) :: head(size(HEAD_NAMES))            !< what it says; '': nothing
+      logical :: not_converged = .false.                  !< its head says so
+      type(string_t), allocatable :: columns(:)           !< their names
+      integer(ip) :: n_columns = 0, n_rows = 0            !< in the file
+      character(len=:), allocatable :: text               !< the whole file
       integer(ip), allocatable :: first(:, :), last(:, :) !< places of the items in text, (n_columns, n_rows)
-      integer, allocatable :: kind(:, :)               !< ITEM_*
-      real(wp), allocatable :: value(:, :)             !< of the numbers; NaN for words
+      integer, allocatable :: kind(:, :)                  !< ITEM_*
+      real(wp), allocatable :: value(:, :)                !< of the numbers; NaN for words
    end type table_file_t
 
    integer, parameter :: MOST_COLUMNS = 10000          !< a table of more is none of atrito
@@ -53,9 +53,9 @@ contains
 
    !> Reads a table file. status: STATUS_FILE when it cannot be read or is no table of atrito.
    subroutine read_table(path, table, status)
-      character(len=*), intent(in) :: path
-      type(table_file_t), intent(out) :: table
-      type(status_t), intent(out) :: status
+      character(len=*), intent(in) :: path     !< as the user wrote it, with folder and ending
+      type(table_file_t), intent(out) :: table !< of no use where the status is not OK
+      type(status_t), intent(out) :: status    !< STATUS_FILE where it cannot be read or is no table of atrito
       character(len=:), allocatable :: text
 
       call read_file(path, text, status)
@@ -72,9 +72,9 @@ contains
 
    !> Takes the text of a table apart. status: STATUS_FILE and a reason without the file's name.
    subroutine parse_table(text, name, table, status)
-      character(len=*), intent(in) :: text, name
-      type(table_file_t), intent(out) :: table
-      type(status_t), intent(out) :: status
+      character(len=*), intent(in) :: text, name !< the whole file; its name without folder
+      type(table_file_t), intent(out) :: table   !< of no use where the status is not OK
+      type(status_t), intent(out) :: status      !< STATUS_FILE and what is wrong, without the name
       integer :: first, last, i, k
       integer(ip) :: line, n_rows
 
@@ -350,8 +350,8 @@ contains
 
    !> Place of a column by name; 0 when there is none.
    pure integer(ip) function find_column(table, name) result(i)
-      type(table_file_t), intent(in) :: table
-      character(len=*), intent(in) :: name
+      type(table_file_t), intent(in) :: table !< read
+      character(len=*), intent(in) :: name    !< letter for letter
 
       do i = 1, table%n_columns
          if (table%columns(i)%s == name) return
@@ -361,8 +361,8 @@ contains
 
    !> An item as it stands in the file.
    pure function item_text(table, column, row) result(text)
-      type(table_file_t), intent(in) :: table
-      integer(ip), intent(in) :: column, row
+      type(table_file_t), intent(in) :: table !< read
+      integer(ip), intent(in) :: column, row  !< from 1
       character(len=:), allocatable :: text
 
       text = table%text(table%first(column, row):table%last(column, row))

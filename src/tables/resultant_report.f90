@@ -21,7 +21,7 @@ contains
 
    !> Whether the deck has supports, loads or contact pairs.
    pure logical function has_resultants(model) result(has)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model !< its sources are read
 
       has = .false.
       if (allocated(model%sources)) has = size(model%sources) > 0
@@ -52,10 +52,10 @@ contains
 
    !> A row a support, a rigid surface or a load.
    subroutine build_resultants(model, results, scales, table)
-      type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
-      type(scales_t), intent(in) :: scales
-      type(table_t), intent(out) :: table
+      type(model_t), intent(in) :: model     !< its sources, loads and mesh are read
+      type(results_t), intent(in) :: results !< of one increment
+      type(scales_t), intent(in) :: scales   !< of the history; its length is read
+      type(table_t), intent(out) :: table    !< a row a support or a load
       type(resultant_t), allocatable :: list(:)
       type(string_t), allocatable :: names(:), keywords(:)
       real(wp), allocatable :: field(:, :)
@@ -78,10 +78,10 @@ contains
 
    !> For the listing: all of them.
    subroutine describe_resultants(page, model, results, scales)
-      type(page_t), intent(inout) :: page
-      type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
-      type(scales_t), intent(in) :: scales
+      type(page_t), intent(inout) :: page            !< the lines are added to it
+      type(model_t), intent(in) :: model             !< its sources, loads and mesh are read
+      type(results_t), intent(in) :: results         !< of one increment
+      type(scales_t), intent(in) :: scales           !< of the history; its length is read
       integer, parameter :: MOST = 40                !< lines
       type(resultant_t), allocatable :: list(:)
       type(grid_t) :: grid
@@ -107,9 +107,9 @@ contains
 
    !> For the screen: what holds the bodies, set by set where there is room, else in all. What is small beside the rest is 0.
    subroutine add_supports(page, model, results)
-      type(page_t), intent(inout) :: page
-      type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
+      type(page_t), intent(inout) :: page            !< one line is added to it
+      type(model_t), intent(in) :: model             !< its sources, loads and mesh are read
+      type(results_t), intent(in) :: results         !< of one increment
       integer, parameter :: ROOM = 66                !< columns behind the label
       type(resultant_t), allocatable :: list(:)
       character(len=:), allocatable :: text

@@ -31,9 +31,9 @@ contains
    !> Supports in the order of the deck, then rigid surfaces that stay where they are, then loads. Of bodies of revolution what is
    !> radial, and moments, balance in themselves and are 0.
    pure subroutine find_resultants(model, frame, list)
-      type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: frame
-      type(resultant_t), allocatable, intent(out) :: list(:)
+      type(model_t), intent(in) :: model                     !< sources, steps and mesh are read
+      type(results_t), intent(in) :: frame                   !< of one increment
+      type(resultant_t), allocatable, intent(out) :: list(:) !< those that act in the increment
       type(sums_t) :: sums
       type(resultant_t), allocatable :: rigid(:)
       integer, allocatable :: supports(:), loads(:)
@@ -87,7 +87,7 @@ contains
 
    !> Whether it holds the bodies, as supports and rigid surfaces do; loads do not.
    pure elemental logical function holds(resultant)
-      type(resultant_t), intent(in) :: resultant
+      type(resultant_t), intent(in) :: resultant !< of find_resultants
 
       holds = resultant%keyword == SUPPORT .or. resultant%keyword == RIGID_SURFACE
    end function holds

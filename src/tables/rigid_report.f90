@@ -22,8 +22,8 @@ contains
    !> A row a rigid surface with a reference node.
    subroutine build_rigid_table(results, scales, table)
       type(results_t), intent(in) :: results        !< with rigid bodies
-      type(scales_t), intent(in) :: scales
-      type(table_t), intent(out) :: table
+      type(scales_t), intent(in) :: scales          !< of the history: what is nothing beside them is 0
+      type(table_t), intent(out) :: table           !< a row a body
       character(len=:), allocatable :: title
       type(string_t) :: names(size(results%rigid))
       real(wp) :: field(size(results%rigid), 6)
@@ -62,9 +62,9 @@ contains
 
    !> The rigid surfaces that move, and what of them is prescribed at the end of a step.
    subroutine describe_references(page, model, step)
-      type(page_t), intent(inout) :: page
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: step
+      type(page_t), intent(inout) :: page !< the lines are added to it
+      type(model_t), intent(in) :: model  !< rigid bodies and what is prescribed of them
+      integer(ip), intent(in) :: step     !< from 1
       character(len=:), allocatable :: text
       integer(ip) :: i, k
 
@@ -133,9 +133,9 @@ contains
 
    !> Motions and reactions, as rigid.tab has them, for the listing.
    subroutine describe_rigid_bodies(page, results, scales)
-      type(page_t), intent(inout) :: page
-      type(results_t), intent(in) :: results
-      type(scales_t), intent(in) :: scales
+      type(page_t), intent(inout) :: page    !< the lines are added to it
+      type(results_t), intent(in) :: results !< of one increment; without rigid bodies nothing is told
+      type(scales_t), intent(in) :: scales   !< of the history: what is nothing beside them is 0
       type(grid_t) :: grid
       real(wp) :: numbers(6)
       integer :: i

@@ -20,8 +20,8 @@ contains
 
    !> Whether there are rows for a table.
    pure logical function has_rows(model, results, name)
-      type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
+      type(model_t), intent(in) :: model            !< its bilateral rows are read
+      type(results_t), intent(in) :: results        !< of one increment
       character(len=*), intent(in) :: name          !< of ROW_TABLES
 
       has_rows = size(rows_of(model, KIND_OF_TABLE(findloc(ROW_TABLES == name, .true., dim=1)))) > 0 .and. &
@@ -41,10 +41,10 @@ contains
 
    !> A row a node of a slave: the force that the tie exerts upon it. Its rows along x and y stand one behind the other.
    subroutine build_ties(model, results, scales, table)
-      type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
-      type(scales_t), intent(in) :: scales
-      type(table_t), intent(out) :: table
+      type(model_t), intent(in) :: model     !< ties, mesh and bilateral rows are read
+      type(results_t), intent(in) :: results !< of one increment, with forces of rows
+      type(scales_t), intent(in) :: scales   !< of the history: what is nothing beside them is 0
+      type(table_t), intent(out) :: table    !< a row a node of a slave
       integer(ip), allocatable :: first(:), node(:)
       real(wp), allocatable :: field(:, :)
       integer(ip) :: n, k
@@ -76,10 +76,10 @@ contains
 
    !> A row an equation: the force that it exerts upon the dof of its first term.
    subroutine build_equations(model, results, scales, table)
-      type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
-      type(scales_t), intent(in) :: scales
-      type(table_t), intent(out) :: table
+      type(model_t), intent(in) :: model     !< equations, mesh and bilateral rows are read
+      type(results_t), intent(in) :: results !< of one increment, with forces of rows
+      type(scales_t), intent(in) :: scales   !< of the history: what is nothing beside them is 0
+      type(table_t), intent(out) :: table    !< a row an equation
       integer(ip), allocatable :: rows(:)
       integer(ip) :: n
 
@@ -97,10 +97,10 @@ contains
 
    !> A row a spring.
    subroutine build_springs(model, results, scales, table)
-      type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
-      type(scales_t), intent(in) :: scales
-      type(table_t), intent(out) :: table
+      type(model_t), intent(in) :: model     !< springs, mesh and bilateral rows are read
+      type(results_t), intent(in) :: results !< of one increment, with forces of rows
+      type(scales_t), intent(in) :: scales   !< of the history: what is nothing beside them is 0
+      type(table_t), intent(out) :: table    !< a row a spring
       integer(ip), allocatable :: rows(:), second(:)
       integer(ip) :: n
 
@@ -122,9 +122,9 @@ contains
 
    !> For the listing: the resultant of each tie, and the largest forces of the others.
    subroutine describe_rows(page, model, results)
-      type(page_t), intent(inout) :: page
-      type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
+      type(page_t), intent(inout) :: page    !< the lines are added to it
+      type(model_t), intent(in) :: model     !< ties, equations, springs and bilateral rows are read
+      type(results_t), intent(in) :: results !< of one increment; without forces of rows nothing is told
       integer(ip), allocatable :: rows(:)
       integer(ip) :: i
 
@@ -198,7 +198,7 @@ contains
 
    !> `1 tie, 2 equations, 3 springs`; '' where there is nothing of the kind.
    pure function joined_text(model) result(text)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in) :: model !< ties, equations and springs are counted
       character(len=:), allocatable :: text
       integer(ip) :: n
 

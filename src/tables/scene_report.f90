@@ -23,8 +23,8 @@ contains
 
    !> Unknowns, loops and memory, and what was left out.
    subroutine describe_needs(page, scene)
-      type(page_t), intent(inout) :: page
-      type(scene_t), intent(in) :: scene
+      type(page_t), intent(inout) :: page !< the lines are added to it
+      type(scene_t), intent(in) :: scene  !< counts, memory, and what was left out
       integer :: i
 
       call add_entry(page, 'bodies', to_text(body_count(scene)))
@@ -50,8 +50,8 @@ contains
 
    !> A row a body: its size, solver and why.
    subroutine describe_bodies(page, scene, factored, some)
-      type(page_t), intent(inout) :: page
-      type(scene_t), intent(in) :: scene
+      type(page_t), intent(inout) :: page           !< the lines are added to it
+      type(scene_t), intent(in) :: scene            !< its bodies are read
       logical, intent(in) :: factored               !< lost digits and signs are known
       logical, intent(in) :: some                   !< of many the first ones only
       integer(ip) :: i, n
@@ -111,8 +111,8 @@ contains
 
    !> A row a contact pair before the solution.
    subroutine describe_pairs(page, scene, some)
-      type(page_t), intent(inout) :: page
-      type(scene_t), intent(in) :: scene
+      type(page_t), intent(inout) :: page           !< the lines are added to it
+      type(scene_t), intent(in) :: scene            !< its pairs are read
       logical, intent(in) :: some                   !< of many the first ones only
       integer(ip) :: i, n
 
@@ -178,8 +178,8 @@ contains
 
    !> Node sets with their nodes, element sets and materials with their elements, surfaces with their faces.
    subroutine describe_names(page, model)
-      type(page_t), intent(inout) :: page
-      type(model_t), intent(in) :: model
+      type(page_t), intent(inout) :: page !< the lines are added to it
+      type(model_t), intent(in) :: model  !< sets, surfaces and materials are read
       character(len=:), allocatable :: text
       integer(ip) :: i, n, in_use
 

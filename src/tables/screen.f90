@@ -52,12 +52,12 @@ contains
 
    !> Composes the summary: of a history its last increment. folder and files: where the run was written.
    subroutine compose_summary(model, history, folder, files, page, pictures)
-      type(model_t), intent(in) :: model
-      type(history_t), intent(in) :: history
-      character(len=*), intent(in) :: folder
-      type(string_t), intent(in) :: files(:)        !< names without folder
-      type(page_t), intent(out) :: page
-      type(string_t), intent(in), optional :: pictures(:)    !< that were drawn, names without folder and ending
+      type(model_t), intent(in) :: model                  !< as solved
+      type(history_t), intent(in) :: history              !< with all frames; it is not empty
+      character(len=*), intent(in) :: folder              !< as the user wrote it
+      type(string_t), intent(in) :: files(:)              !< names without folder
+      type(page_t), intent(out) :: page                   !< at most 24 lines of 79 columns
+      type(string_t), intent(in), optional :: pictures(:) !< that were drawn, names without folder and ending
       integer :: after                              ! lines of the end
       integer :: i, extra_lines
 
@@ -378,9 +378,9 @@ contains
 
    !> Composes the report of a deck that has no errors.
    subroutine compose_check(model, scene, page)
-      type(model_t), intent(in) :: model
-      type(scene_t), intent(in) :: scene
-      type(page_t), intent(out) :: page
+      type(model_t), intent(in) :: model !< as read
+      type(scene_t), intent(in) :: scene !< as it would be solved
+      type(page_t), intent(out) :: page  !< lines of 79 columns
 
       call begin_deck_report(page, model, ' check')
       call add_rule(page, '=')

@@ -19,8 +19,8 @@ contains
 
    !> How the bodies were factored, and by which libraries.
    subroutine describe_solver(page, history, results)
-      type(page_t), intent(inout) :: page
-      type(history_t), intent(in) :: history
+      type(page_t), intent(inout) :: page           !< the lines are added to it
+      type(history_t), intent(in) :: history        !< factorisations are read
       type(results_t), intent(in) :: results        !< the last of it
       type(library_t), allocatable :: list(:)
       integer :: i
@@ -42,8 +42,8 @@ contains
 
    !> A row an increment; its iterations are in iterations.tab.
    subroutine describe_increments(page, history)
-      type(page_t), intent(inout) :: page
-      type(history_t), intent(in) :: history
+      type(page_t), intent(inout) :: page    !< the lines are added to it
+      type(history_t), intent(in) :: history !< with all frames; it is not empty
       type(increment_t), allocatable :: list(:)
       character(len=:), allocatable :: name_of_last
       integer :: i
@@ -66,8 +66,8 @@ contains
 
    !> Outer and inner iterations, what is known of other solutions, and points that did not settle.
    subroutine describe_iterations(page, results)
-      type(page_t), intent(inout) :: page
-      type(results_t), intent(in) :: results
+      type(page_t), intent(inout) :: page    !< the lines are added to it
+      type(results_t), intent(in) :: results !< of one increment
       character(len=:), allocatable :: unique
       integer :: i
 
@@ -119,8 +119,8 @@ contains
 
    !> Compiler and libraries; those that this run did not use are told so.
    subroutine list_used_libraries(scene, list)
-      type(scene_t), intent(in) :: scene
-      type(library_t), allocatable, intent(out) :: list(:)
+      type(scene_t), intent(in) :: scene                   !< its bodies and their orders are read
+      type(library_t), allocatable, intent(out) :: list(:) !< name and version, or that it was not used
 
       call list_libraries(.true., list, is_by_metis(scene))
    end subroutine list_used_libraries

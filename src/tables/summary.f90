@@ -17,29 +17,29 @@ module atrito_summary
 
    !> What the contact tractions of one pair come to.
    type :: pair_summary_t
-      real(wp) :: candidate_area = 0.0_wp          !< [L^2]
-      real(wp) :: effective_area = 0.0_wp          !< [L^2] weights with p > 0
-      real(wp) :: effective_area_percent = 0.0_wp
-      real(wp) :: normal_resultant = 0.0_wp        !< [F]
-      real(wp) :: shear_resultant = 0.0_wp         !< [F] along T, on the slave
-      real(wp) :: max_pressure = 0.0_wp            !< [F/L^2]
-      real(wp) :: max_pressure_over_uniform = 0.0_wp
-      real(wp) :: max_pressure_over_triangular = 0.0_wp
-      real(wp) :: resultant_from_start = 0.0_wp    !< [L] along s
-      real(wp) :: resultant_from_end = 0.0_wp      !< [L] along s
-      real(wp) :: max_abs_shear = 0.0_wp           !< [F/L^2]
-      real(wp) :: max_abs_slip = 0.0_wp            !< [L], all points
-      real(wp) :: max_penetration = 0.0_wp         !< [L]
-      integer(ip) :: open_points = 0, stick_points = 0, slip_points = 0
+      real(wp) :: candidate_area = 0.0_wp                               !< [L^2]
+      real(wp) :: effective_area = 0.0_wp                               !< [L^2] weights with p > 0
+      real(wp) :: effective_area_percent = 0.0_wp                       !< effective over candidate area
+      real(wp) :: normal_resultant = 0.0_wp                             !< [F]
+      real(wp) :: shear_resultant = 0.0_wp                              !< [F] along T, on the slave
+      real(wp) :: max_pressure = 0.0_wp                                 !< [F/L^2]
+      real(wp) :: max_pressure_over_uniform = 0.0_wp                    !< times candidate area over normal resultant
+      real(wp) :: max_pressure_over_triangular = 0.0_wp                 !< half of that: over the peak of a triangle
+      real(wp) :: resultant_from_start = 0.0_wp                         !< [L] along s
+      real(wp) :: resultant_from_end = 0.0_wp                           !< [L] along s
+      real(wp) :: max_abs_shear = 0.0_wp                                !< [F/L^2]
+      real(wp) :: max_abs_slip = 0.0_wp                                 !< [L], all points
+      real(wp) :: max_penetration = 0.0_wp                              !< [L]
+      integer(ip) :: open_points = 0, stick_points = 0, slip_points = 0 !< at the end of the increment
    end type pair_summary_t
 
    !> A row of summary.tab.
    type :: quantity_t
-      character(len=32) :: name = ''
-      character(len=8) :: dimension = '-'
-      real(wp) :: value = 0.0_wp
+      character(len=32) :: name = ''               !< as in summary.tab
+      character(len=8) :: dimension = '-'          !< in F and L; '-': none
+      real(wp) :: value = 0.0_wp                   !< NaN where it is not defined
       real(wp) :: scale = 0.0_wp                   !< of its field; 0: nothing is rounding
-      logical :: is_count = .false.
+      logical :: is_count = .false.                !< written as an integer
    end type quantity_t
 
    !> The largest value of each field.
@@ -59,7 +59,7 @@ contains
    !> Summarises the fields at the quadrature points of a pair. A ratio that is not defined, for want of points or of pressure,
    !> is NaN.
    pure function summarise_pair(contact) result(summary)
-      type(contact_result_t), intent(in) :: contact
+      type(contact_result_t), intent(in) :: contact !< of one pair
       type(pair_summary_t) :: summary
       real(wp) :: moment
       integer(ip) :: n
@@ -94,8 +94,8 @@ contains
 
    !> `2 open, 0 stick, 5 slip`; without friction a closed point is closed, whatever it does along the surface.
    pure function states_text(contact, summary) result(text)
-      type(contact_result_t), intent(in) :: contact
-      type(pair_summary_t), intent(in) :: summary
+      type(contact_result_t), intent(in) :: contact !< of one pair; whether it has friction is read
+      type(pair_summary_t), intent(in) :: summary   !< of the same pair
       character(len=:), allocatable :: text
 
       text = to_text(summary%open_points)//' open, '
@@ -105,7 +105,7 @@ contains
 
    !> What points are that are neither open nor stick: `slip`, without any friction `closed`.
    pure function closed_word(scene) result(word)
-      type(scene_t), intent(in) :: scene
+      type(scene_t), intent(in) :: scene !< its tangential unknowns are counted
       character(len=:), allocatable :: word
 
       word = trim(merge('slip  ', 'closed', scene%n_tangential > 0))
@@ -121,8 +121,8 @@ contains
 
    !> The rows of a pair, in the order of summary.tab.
    pure function pair_quantities(summary, scales) result(list)
-      type(pair_summary_t), intent(in) :: summary
-      type(scales_t), intent(in) :: scales
+      type(pair_summary_t), intent(in) :: summary !< of one pair
+      type(scales_t), intent(in) :: scales        !< of this pair
       type(quantity_t), allocatable :: list(:)
       real(wp) :: force
 
@@ -149,7 +149,7 @@ contains
 
    !> The rows of a step (pair 0), in the order of summary.tab.
    pure function step_quantities(results) result(list)
-      type(results_t), intent(in) :: results
+      type(results_t), intent(in) :: results !< of one increment
       type(quantity_t), allocatable :: list(:)
       integer :: i
 
@@ -180,7 +180,7 @@ contains
 
    !> The bound of the error and the estimate, or the estimate alone: one line of some 65 columns.
    pure function error_text(results) result(text)
-      type(results_t), intent(in) :: results
+      type(results_t), intent(in) :: results !< of one increment
       character(len=:), allocatable :: text
 
       associate (bound => results%error_bound)
@@ -235,7 +235,7 @@ contains
    !> What is proved of the solution being the only one, in words that promise no more: one line of some 65 columns; '' without
    !> friction.
    pure function uniqueness_text(known) result(text)
-      type(uniqueness_t), intent(in) :: known
+      type(uniqueness_t), intent(in) :: known !< of one increment
       character(len=:), allocatable :: text
       character(len=:), allocatable :: up_to
 
@@ -341,9 +341,9 @@ contains
 
    !> The scales of a history: what is rounding beside the largest value of any of its frames is rounding in all of them.
    subroutine measure_history(model, history, scales, own)
-      type(model_t), intent(in) :: model
-      type(history_t), intent(in), target :: history
-      type(scales_t), intent(out) :: scales
+      type(model_t), intent(in) :: model                 !< mesh and loads are read
+      type(history_t), intent(in), target :: history     !< all frames are shown, one after the other
+      type(scales_t), intent(out) :: scales              !< of all frames
       type(scales_t), allocatable, intent(out) :: own(:) !< of each pair's fields
       type(results_t), pointer :: frame
       logical, allocatable :: is_bare(:)             !< a pair that has no points in some frame
@@ -387,7 +387,7 @@ contains
 
    !> Contact pairs of a frame.
    pure integer(ip) function pair_count(results)
-      type(results_t), intent(in) :: results
+      type(results_t), intent(in) :: results !< of one increment
 
       pair_count = 0
       if (allocated(results%contact)) pair_count = size(results%contact, kind=ip)
@@ -395,8 +395,8 @@ contains
 
    !> `SLAVE on MASTER`; nothing where the scene is not known.
    pure function pair_name(results, i) result(name)
-      type(results_t), intent(in) :: results
-      integer(ip), intent(in) :: i
+      type(results_t), intent(in) :: results !< of one increment, with its scene
+      integer(ip), intent(in) :: i           !< place of the pair, from 1
       character(len=:), allocatable :: name
 
       name = ''
@@ -406,7 +406,7 @@ contains
 
    !> Bodies of a scene.
    pure integer(ip) function body_count(scene)
-      type(scene_t), intent(in) :: scene
+      type(scene_t), intent(in) :: scene !< not described yet: 0
 
       body_count = 0
       if (allocated(scene%bodies)) body_count = size(scene%bodies, kind=ip)

@@ -21,33 +21,33 @@ module atrito_table
    integer, parameter :: KIND_REAL = 1, KIND_INTEGER = 2, KIND_WORD = 3   !< of a column
 
    type :: column_t
-      character(len=:), allocatable :: name, dimension
-      integer :: kind = KIND_REAL
-      real(wp) :: zero = 0.0_wp                    !< smaller values are written as 0
-      logical :: on_the_left = .false.             !< within its field
-      integer :: width = 0                         !< characters that its values, its name and its dimension need
-      integer :: first = 0, last = 0               !< its place in a line
-      real(wp), allocatable :: reals(:)
-      real(wp), pointer :: field(:) => null()      !< reals that stay where they are; the table knows which of them
-      integer(ip), allocatable :: integers(:)      !< (n_rows), or one for all rows
-      integer(ip), pointer :: integer_field(:) => null(), ids(:) => null()   !< integers that stay where they are
-      type(string_t), allocatable :: words(:)
+      character(len=:), allocatable :: name, dimension !< of one word; in F and L, '-': none
+      integer :: kind = KIND_REAL                      !< KIND_*
+      real(wp) :: zero = 0.0_wp                        !< smaller values are written as 0
+      logical :: on_the_left = .false.                 !< within its field
+      integer :: width = 0                             !< characters that its values, its name and its dimension need
+      integer :: first = 0, last = 0                   !< its place in a line
+      real(wp), allocatable :: reals(:)                !< (n_rows) its own
+      real(wp), pointer :: field(:) => null()          !< reals that stay where they are; the table knows which of them
+      integer(ip), allocatable :: integers(:)          !< (n_rows), or one for all rows
+      integer(ip), pointer :: integer_field(:) => null(), ids(:) => null() !< integers that stay where they are
+      type(string_t), allocatable :: words(:)          !< (n_rows) of one word each
    end type column_t
 
    type :: table_t
       character(len=:), allocatable :: name        !< file name without its ending
       character(len=:), allocatable :: title       !< what a row is
       type(string_t), allocatable :: remarks(:)    !< further comment lines
-      integer(ip) :: n_rows = 0
+      integer(ip) :: n_rows = 0                    !< rows
       integer(ip), allocatable :: places(:)        !< of each row in the fields; not allocated: all, in order
-      type(column_t), allocatable :: columns(:)
+      type(column_t), allocatable :: columns(:)    !< in their order
    end type table_t
 
    !> Where tables come from: the comment lines at their top.
    type, extends(provenance_t) :: origin_t
       character(len=:), allocatable :: deck        !< file name, without folder
-      type(string_t), allocatable :: heading(:)
-      logical :: not_converged = .false.
+      type(string_t), allocatable :: heading(:)    !< lines of *HEADING
+      logical :: not_converged = .false.           !< a mark says so at the top
       character(len=:), allocatable :: ending      !< of a history that ended early: where and why
    end type origin_t
 
@@ -55,9 +55,9 @@ contains
 
    !> Begins a table without columns.
    pure subroutine begin_table(table, name, title, n_rows)
-      type(table_t), intent(out) :: table
-      character(len=*), intent(in) :: name, title
-      integer(ip), intent(in) :: n_rows
+      type(table_t), intent(out) :: table         !< has no columns yet
+      character(len=*), intent(in) :: name, title !< of the file, without ending; what a row is
+      integer(ip), intent(in) :: n_rows           !< >= 0
 
       table%name = name
       table%title = title
@@ -67,9 +67,9 @@ contains
 
    !> Begins a table of one increment with the column of its step; that of the increment comes last.
    pure subroutine begin_step_table(table, name, title, n_rows, step)
-      type(table_t), intent(out) :: table
-      character(len=*), intent(in) :: name, title
-      integer(ip), intent(in) :: n_rows, step
+      type(table_t), intent(out) :: table         !< has one column
+      character(len=*), intent(in) :: name, title !< of the file, without ending; what a row is
+      integer(ip), intent(in) :: n_rows, step     !< rows, >= 0; number of the step
 
       call begin_table(table, name, title, n_rows)
       call add_integers(table, 'step', [step])
@@ -77,8 +77,8 @@ contains
 
    !> Adds a column of reals.
    pure subroutine add_reals(table, name, dimension, values, scale)
-      type(table_t), intent(inout) :: table
-      character(len=*), intent(in) :: name
+      type(table_t), intent(inout) :: table         !< gets one column more
+      character(len=*), intent(in) :: name          !< of one word
       character(len=*), intent(in) :: dimension     !< in F and L; '-' for none
       real(wp), intent(in) :: values(:)             !< (n_rows)
       real(wp), intent(in) :: scale                 !< largest value of the field; 0: nothing is rounding
@@ -92,9 +92,9 @@ contains
 
    !> Adds columns of reals of which nothing is rounding.
    pure subroutine add_real_columns(table, names, dimensions, values)
-      type(table_t), intent(inout) :: table
-      character(len=*), intent(in) :: names(:), dimensions(:)
-      real(wp), intent(in) :: values(:, :)          !< (n_rows, columns)
+      type(table_t), intent(inout) :: table                   !< gets the columns
+      character(len=*), intent(in) :: names(:), dimensions(:) !< of each column, blanks at the end apart; in F and L, '-': none
+      real(wp), intent(in) :: values(:, :)                    !< (n_rows, columns)
       integer :: i
 
       do i = 1, size(names)
@@ -104,10 +104,10 @@ contains
 
    !> Adds a column of reals that are not copied but read when the table is written: those at table%places.
    subroutine add_field(table, name, dimension, field, scale)
-      type(table_t), intent(inout) :: table
-      character(len=*), intent(in) :: name, dimension
-      real(wp), intent(in), target :: field(:)
-      real(wp), intent(in) :: scale
+      type(table_t), intent(inout) :: table           !< gets one column more, which points at the field
+      character(len=*), intent(in) :: name, dimension !< of one word; in F and L, '-': none
+      real(wp), intent(in), target :: field(:)        !< stays where it is until the table is written
+      real(wp), intent(in) :: scale                   !< largest value of the field; 0: nothing is rounding
       type(column_t) :: column
 
       column%kind = KIND_REAL
@@ -118,8 +118,8 @@ contains
 
    !> Adds a column of integers.
    pure subroutine add_integers(table, name, values)
-      type(table_t), intent(inout) :: table
-      character(len=*), intent(in) :: name
+      type(table_t), intent(inout) :: table         !< gets one column more
+      character(len=*), intent(in) :: name          !< of one word
       integer(ip), intent(in) :: values(:)          !< (n_rows), or one for all rows
       type(column_t) :: column
 
@@ -131,10 +131,10 @@ contains
    !> Adds a column of integers that are not copied but read when the table is written: those at table%places. With ids they are
    !> places in them, and the ids are written.
    subroutine add_integer_field(table, name, field, ids)
-      type(table_t), intent(inout) :: table
-      character(len=*), intent(in) :: name
-      integer(ip), intent(in), target :: field(:)
-      integer(ip), intent(in), target, optional :: ids(:)
+      type(table_t), intent(inout) :: table               !< gets one column more, which points at the field
+      character(len=*), intent(in) :: name                !< of one word
+      integer(ip), intent(in), target :: field(:)         !< stays where it is until the table is written
+      integer(ip), intent(in), target, optional :: ids(:) !< stay where they are, too
       type(column_t) :: column
 
       column%kind = KIND_INTEGER
@@ -145,10 +145,10 @@ contains
 
    !> Adds a column of words; none may be empty or hold a blank.
    pure subroutine add_words(table, name, dimension, values, on_the_left)
-      type(table_t), intent(inout) :: table
-      character(len=*), intent(in) :: name, dimension
-      type(string_t), intent(in) :: values(:)       !< (n_rows)
-      logical, intent(in) :: on_the_left            !< names; numbers stand on the right
+      type(table_t), intent(inout) :: table           !< gets one column more
+      character(len=*), intent(in) :: name, dimension !< of one word; in F and L, '-': none
+      type(string_t), intent(in) :: values(:)         !< (n_rows)
+      logical, intent(in) :: on_the_left              !< names; numbers stand on the right
       type(column_t) :: column
       integer :: i
 
@@ -199,7 +199,7 @@ contains
    !> What is rounding in the values of a field becomes 0.
    pure subroutine clear_small(scale, values)
       real(wp), intent(in) :: scale                 !< largest value of the field; 0: nothing is rounding
-      real(wp), intent(inout) :: values(:)
+      real(wp), intent(inout) :: values(:)          !< of one field
       integer(ip) :: i
 
       do i = 1, size(values, kind=ip)
@@ -209,7 +209,7 @@ contains
 
    !> |x| < limit, false for NaN, which must not meet an ordered comparison while invalid operations are trapped.
    pure logical function abs_is_below(x, limit)
-      real(wp), intent(in) :: x, limit
+      real(wp), intent(in) :: x, limit !< any double; no NaN
 
       abs_is_below = .false.
       if (.not. is_nan(x)) abs_is_below = abs(x) < limit
@@ -217,7 +217,7 @@ contains
 
    !> Underscores for blanks, and for #, which numpy takes for the beginning of a comment.
    pure function one_word(text) result(word)
-      character(len=*), intent(in) :: text
+      character(len=*), intent(in) :: text !< any text
       character(len=len(text)) :: word
 
       word = replaced(text, ' #', '_')

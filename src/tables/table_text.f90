@@ -26,10 +26,10 @@ module atrito_table_text
    !> wide as the pieces that were measured before (measure_rows) need it, or else the first one that is written.
    type :: growing_table_t
       private
-      type(table_t) :: head                        !< without rows
-      type(text_file_t) :: file
-      type(text_file_t) :: head_file               !< of comma-separated values
-      logical :: is_csv = .false., has_top = .false.
+      type(table_t) :: head                          !< without rows
+      type(text_file_t) :: file                      !< that of the table
+      type(text_file_t) :: head_file                 !< of comma-separated values
+      logical :: is_csv = .false., has_top = .false. !< comma-separated values; the top has been written
    end type growing_table_t
 
 contains
@@ -38,11 +38,11 @@ contains
    !>
    !> status: STATUS_FILE when it could not be written.
    subroutine write_table(set, table, origin, digits, status, is_csv)
-      type(file_set_t), intent(inout) :: set
+      type(file_set_t), intent(inout) :: set        !< begun; gets the file
       type(table_t), intent(inout) :: table         !< its columns get their places
-      type(origin_t), intent(in) :: origin
+      type(origin_t), intent(in) :: origin          !< what stands at the top
       integer, intent(in) :: digits                 !< significant digits, 6..17
-      type(status_t), intent(out) :: status
+      type(status_t), intent(out) :: status         !< STATUS_FILE where it could not be written
       logical, intent(in), optional :: is_csv       !< left out: .false.
       type(growing_table_t) :: file
 
@@ -53,9 +53,9 @@ contains
 
    !> Gives the columns the room that a piece needs.
    subroutine measure_rows(file, piece, digits)
-      type(growing_table_t), intent(inout) :: file
+      type(growing_table_t), intent(inout) :: file  !< columns become wider; it is not open yet
       type(table_t), intent(inout) :: piece         !< its columns get their widths
-      integer, intent(in) :: digits
+      integer, intent(in) :: digits                 !< significant digits, 6..17
       integer :: i, k, value_width
 
       ! Gives each column room for its values, its name and its dimension, so that the names stand above the numbers.
@@ -99,9 +99,9 @@ contains
 
    !> Opens the file of a table. What was measured for it stays.
    subroutine open_table(set, name, file, is_csv)
-      type(file_set_t), intent(inout) :: set
+      type(file_set_t), intent(inout) :: set        !< begun; gets the file
       character(len=*), intent(in) :: name          !< without its ending
-      type(growing_table_t), intent(inout) :: file
+      type(growing_table_t), intent(inout) :: file  !< measured or not; is open afterwards
       logical, intent(in), optional :: is_csv       !< left out: .false.
 
       if (present(is_csv)) file%is_csv = is_csv
@@ -111,10 +111,10 @@ contains
 
    !> Writes the rows of a piece. A failure is kept in the file until close_table.
    subroutine put_table(file, piece, origin, digits, remarks)
-      type(growing_table_t), intent(inout) :: file
-      type(table_t), intent(inout) :: piece         !< its columns get their places
-      type(origin_t), intent(in) :: origin
-      integer, intent(in) :: digits                 !< significant digits, 6..17
+      type(growing_table_t), intent(inout) :: file       !< open; gets the rows, before the first ones its top
+      type(table_t), intent(inout) :: piece              !< its columns get their places
+      type(origin_t), intent(in) :: origin               !< what stands at the top
+      integer, intent(in) :: digits                      !< significant digits, 6..17
       type(string_t), intent(in), optional :: remarks(:) !< of the whole table; left out: those of its first piece
       integer :: i
 
@@ -139,8 +139,8 @@ contains
 
    !> status: STATUS_FILE when it could not be written.
    subroutine close_table(file, status)
-      type(growing_table_t), intent(inout) :: file
-      type(status_t), intent(out) :: status
+      type(growing_table_t), intent(inout) :: file !< open; is closed in any case
+      type(status_t), intent(out) :: status        !< STATUS_FILE where it could not be written
 
       type(status_t) :: of_head
 
@@ -151,11 +151,11 @@ contains
 
    !> Writes tables into a folder, all or none; those of the other form that stand there go. status: STATUS_FILE.
    subroutine write_table_set(folder, tables, origin, digits, status, is_csv)
-      character(len=*), intent(in) :: folder
-      type(table_t), intent(inout) :: tables(:)
-      type(origin_t), intent(in) :: origin
-      integer, intent(in) :: digits
-      type(status_t), intent(out) :: status
+      character(len=*), intent(in) :: folder        !< as the user wrote it; is made where it is missing
+      type(table_t), intent(inout) :: tables(:)     !< their columns get their places
+      type(origin_t), intent(in) :: origin          !< what stands at the top of each
+      integer, intent(in) :: digits                 !< significant digits, 6..17
+      type(status_t), intent(out) :: status         !< STATUS_FILE, and then nothing was replaced
       logical, intent(in), optional :: is_csv       !< left out: .false.
       type(file_set_t) :: set
       type(string_t), allocatable :: stale(:)
@@ -353,10 +353,10 @@ contains
 
    !> The values of some rows of a column, before + 1 and the following: its own, or those of the field that it points at.
    pure subroutine fetch_reals(table, column, before, x)
-      type(table_t), intent(in) :: table
-      type(column_t), intent(in) :: column
-      integer(ip), intent(in) :: before
-      real(wp), intent(out) :: x(:)
+      type(table_t), intent(in) :: table   !< that has the column
+      type(column_t), intent(in) :: column !< of reals
+      integer(ip), intent(in) :: before    !< rows before the first one wanted
+      real(wp), intent(out) :: x(:)        !< (rows wanted)
       integer(ip) :: n
 
       n = size(x, kind=ip)
@@ -371,10 +371,10 @@ contains
 
    !> The same of a column of integers; of numbers of nodes or elements those of the deck.
    pure subroutine fetch_integers(table, column, before, k)
-      type(table_t), intent(in) :: table
-      type(column_t), intent(in) :: column
-      integer(ip), intent(in) :: before
-      integer(ip), intent(out) :: k(:)
+      type(table_t), intent(in) :: table   !< that has the column
+      type(column_t), intent(in) :: column !< of integers
+      integer(ip), intent(in) :: before    !< rows before the first one wanted
+      integer(ip), intent(out) :: k(:)     !< (rows wanted)
       integer(ip) :: n
 
       n = size(k, kind=ip)

@@ -32,19 +32,19 @@ module atrito_write_tables
    !> What all tables of a run have in common.
    type :: common_t
       integer :: digits                             !< significant ones, 6..17
-      logical :: is_csv
-      type(origin_t) :: origin
+      logical :: is_csv                             !< comma-separated values
+      type(origin_t) :: origin                      !< what stands at the top of each
       type(scales_t) :: scales                      !< of the history: what is nothing beside them is written as 0
       type(scales_t), allocatable :: own(:)         !< of each pair
    end type common_t
 
    !> A table that gets its rows frame by frame.
    type :: series_t
-      character(len=:), allocatable :: name
+      character(len=:), allocatable :: name         !< of the table
       logical, allocatable :: is_due(:)             !< (frames) that have rows in it
       type(string_t), allocatable :: quantities(:)  !< of the summary, by dimension
       type(string_t), allocatable :: remarks(:)     !< that all frames have a part in; not allocated: there are none
-      type(growing_table_t) :: file
+      type(growing_table_t) :: file                 !< open while frames are written
    end type series_t
 
    !> The comment lines at the top: of one result, or of a history.
@@ -57,7 +57,7 @@ contains
    !> File names of every table that atrito can write: what a new run replaces or removes. Those of --show, and heads of
    !> comma-separated values, as far as they are there: few runs leave any.
    function list_table_files(folder) result(names)
-      character(len=*), intent(in) :: folder
+      character(len=*), intent(in) :: folder !< of the tables
       type(string_t), allocatable :: names(:)
       character(len=12), parameter :: ALL_TABLES(*) = [TABLE_NAMES, SHOWN_TABLES]
       integer :: i
@@ -87,8 +87,8 @@ contains
    end function list_table_files
 
    pure function origin_of_results(model, results) result(origin)
-      type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
+      type(model_t), intent(in) :: model     !< path, heading and provenance are read
+      type(results_t), intent(in) :: results !< of one increment; whether it converged is read
       type(origin_t) :: origin
 
       origin%deck = model%deck_path(index(model%deck_path, '/', back=.true.) + 1:)
@@ -99,8 +99,8 @@ contains
 
    !> A history that ended early is marked, though what it holds converged.
    pure function origin_of_history(model, history) result(origin)
-      type(model_t), intent(in) :: model
-      type(history_t), intent(in) :: history
+      type(model_t), intent(in) :: model     !< path, heading and provenance are read
+      type(history_t), intent(in) :: history !< with all frames; it is not empty
       type(origin_t) :: origin
 
       origin = origin_of_results(model, history%frames(last_frame(history)))
@@ -115,12 +115,12 @@ contains
    !>
    !> status: STATUS_FILE when one could not be written.
    subroutine write_tables(model, history, digits, set, status, is_csv)
-      type(model_t), intent(in), target :: model
-      type(history_t), intent(in), target :: history
-      integer, intent(in) :: digits                 !< significant digits, 6..17
-      type(file_set_t), intent(inout) :: set
-      type(status_t), intent(out) :: status
-      logical, intent(in) :: is_csv                 !< comma-separated values
+      type(model_t), intent(in), target :: model     !< as solved
+      type(history_t), intent(in), target :: history !< with all frames; it is not empty
+      integer, intent(in) :: digits                  !< significant digits, 6..17
+      type(file_set_t), intent(inout) :: set         !< begun; gets the files
+      type(status_t), intent(out) :: status          !< STATUS_FILE where one could not be written
+      logical, intent(in) :: is_csv                  !< comma-separated values
       type(common_t) :: whole
       type(series_t) :: series(size(TABLE_NAMES))
       type(results_t), pointer :: frame
@@ -240,11 +240,11 @@ contains
 
    !> Writes the table timing: the phases that have ended, their sum, and the peak memory as a comment.
    subroutine write_timing(model, history, digits, set, status, is_csv)
-      type(model_t), intent(in) :: model
-      type(history_t), intent(in) :: history
-      integer, intent(in) :: digits
-      type(file_set_t), intent(inout) :: set
-      type(status_t), intent(out) :: status
+      type(model_t), intent(in) :: model            !< path, heading and provenance are read
+      type(history_t), intent(in) :: history        !< with all frames; it is not empty
+      integer, intent(in) :: digits                 !< significant digits, 6..17
+      type(file_set_t), intent(inout) :: set        !< begun; gets the file
+      type(status_t), intent(out) :: status         !< STATUS_FILE where it could not be written
       logical, intent(in) :: is_csv                 !< comma-separated values
       type(phase_time_t), allocatable :: phases(:)
       type(string_t), allocatable :: names(:)

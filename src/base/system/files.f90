@@ -27,7 +27,7 @@ module atrito_files
 
    !> A set of files that appear together or not at all.
    type :: file_set_t
-      character(len=:), allocatable :: folder
+      character(len=:), allocatable :: folder          !< as the user wrote it, without / at its end
       type(string_t), allocatable :: names(:)          !< final names, without folder
       type(string_t), allocatable :: made(:)           !< folders that were made for it
    end type file_set_t
@@ -35,7 +35,7 @@ module atrito_files
    !> A text file being written. The run-time library of gfortran does not tell when a full disk keeps a file from being written, C
    !> does.
    type :: text_file_t
-      type(c_ptr) :: stream = c_null_ptr
+      type(c_ptr) :: stream = c_null_ptr               !< of c_create_file; null: closed, or never opened
       character(len=:), allocatable :: final_path      !< for messages
       type(status_t) :: status                         !< first failure; later calls do nothing
    end type text_file_t
@@ -55,9 +55,9 @@ contains
    !> Reads a whole file into one string; of a file that is no text, its first bytes: they show that it is none.
    !> status: STATUS_FILE when it cannot be read.
    subroutine read_file(path, text, status, is_plain, identity)
-      character(len=*), intent(in) :: path
-      character(len=:), allocatable, intent(out) :: text
-      type(status_t), intent(out) :: status
+      character(len=*), intent(in) :: path               !< as the user wrote it
+      character(len=:), allocatable, intent(out) :: text !< all bytes, ends of lines among them
+      type(status_t), intent(out) :: status !< STATUS_FILE where it is not there, not allowed, no plain file or too large
       logical, intent(out), optional :: is_plain     !< .false.: there is something else, or what may not be read
       integer(lp), intent(out), optional :: identity(2)  !< for protect_input
 
@@ -66,18 +66,18 @@ contains
 
    !> Reads a whole file, whatever its bytes are, one a character. status: STATUS_FILE when it cannot be read.
    subroutine read_bytes(path, bytes, status)
-      character(len=*), intent(in) :: path
-      character(len=:), allocatable, intent(out) :: bytes
-      type(status_t), intent(out) :: status
+      character(len=*), intent(in) :: path                !< as the user wrote it
+      character(len=:), allocatable, intent(out) :: bytes !< one a character; none where the status is not OK
+      type(status_t), intent(out) :: status               !< STATUS_FILE where it cannot be read
 
       call read_plain(path, int(LARGEST_FILE), bytes, status)
    end subroutine read_bytes
 
    !> Whether a file can be read that is going to be read by other means, and what it is. status: STATUS_FILE where not.
    subroutine judge_file(path, status, identity)
-      character(len=*), intent(in) :: path
-      type(status_t), intent(out) :: status
-      integer(lp), intent(out), optional :: identity(2)
+      character(len=*), intent(in) :: path              !< as the user wrote it
+      type(status_t), intent(out) :: status             !< STATUS_FILE where it cannot be read
+      integer(lp), intent(out), optional :: identity(2) !< device and number, for protect_input; -1: there is no file
       integer(c_int) :: file
       integer(c_int64_t) :: length
 
@@ -93,17 +93,17 @@ contains
 
    !> A file of the user that was read is not replaced or removed from now on, until forget_inputs.
    subroutine protect_input(identity, status)
-      integer(lp), intent(in) :: identity(2)
-      type(status_t), intent(out) :: status
+      integer(lp), intent(in) :: identity(2) !< of read_file or judge_file
+      type(status_t), intent(out) :: status  !< STATUS_FILE without memory to note it
 
       if (c_note_input(identity) == 0) call set_status(status, STATUS_FILE, 'no memory for the files that are read')
    end subroutine protect_input
 
    !> From now on files below the first folder alone are read, and those of the output, which is written into the second.
    subroutine confine_files(input, output, status)
-      character(len=*), intent(in) :: input
+      character(len=*), intent(in) :: input         !< folder that the user allows to be read
       character(len=*), intent(in) :: output        !< a true path
-      type(status_t), intent(out) :: status
+      type(status_t), intent(out) :: status         !< STATUS_FILE where `input` is no folder
 
       if (.not. is_folder(input)) call set_status(status, STATUS_FILE, input//': is no folder')
       call c_confine(true_path(input)//c_null_char, output//c_null_char)
@@ -178,9 +178,9 @@ contains
 
    !> The first line of a file of the system (which has no length) that begins with a label.
    subroutine read_system_line(path, label, line, found)
-      character(len=*), intent(in) :: path, label
-      character(len=:), allocatable, intent(out) :: line
-      logical, intent(out) :: found
+      character(len=*), intent(in) :: path, label        !< of the file; with which the line begins
+      character(len=:), allocatable, intent(out) :: line !< with the label; not allocated where there is none
+      logical, intent(out) :: found                      !< there is such a line
       character(len=:), allocatable :: text
       integer :: first
 
@@ -192,8 +192,8 @@ contains
 
    !> The lines of such a file; none where it cannot be read.
    subroutine read_system_lines(path, lines)
-      character(len=*), intent(in) :: path
-      type(string_t), allocatable, intent(out) :: lines(:)
+      character(len=*), intent(in) :: path                 !< of the file, below /proc or /sys
+      type(string_t), allocatable, intent(out) :: lines(:) !< without ends of lines
       character(len=:), allocatable :: text
       integer :: first
 
@@ -231,9 +231,9 @@ contains
 
    !> Begins a set of files in a folder, which is made where it is missing. What a run left there that was killed is cleared away.
    subroutine begin_files(set, folder, status)
-      type(file_set_t), intent(out) :: set
-      character(len=*), intent(in) :: folder
-      type(status_t), intent(out) :: status
+      type(file_set_t), intent(out) :: set   !< empty, for reserve_file and open_text
+      character(len=*), intent(in) :: folder !< as the user wrote it; is made where it is missing
+      type(status_t), intent(out) :: status  !< STATUS_FILE where the folder cannot be made
 
       set%folder = folder
       allocate (set%names(0))
@@ -243,9 +243,9 @@ contains
 
    !> Takes a file into the set that is written by other means, under the temporary path that is given back.
    subroutine reserve_file(set, name, path)
-      type(file_set_t), intent(inout) :: set
-      character(len=*), intent(in) :: name             !< final name, without folder
-      character(len=:), allocatable, intent(out) :: path
+      type(file_set_t), intent(inout) :: set             !< begun; gets the name
+      character(len=*), intent(in) :: name               !< final name, without folder
+      character(len=:), allocatable, intent(out) :: path !< where the file is to be written
 
       call append_string(set%names, name)
       path = set%folder//'/'//name//TEMPORARY
@@ -255,9 +255,9 @@ contains
 
    !> Opens a file of the set under its temporary name. A failure is kept in the file until close_text.
    subroutine open_text(set, name, file)
-      type(file_set_t), intent(inout) :: set
-      character(len=*), intent(in) :: name
-      type(text_file_t), intent(out) :: file
+      type(file_set_t), intent(inout) :: set !< begun; gets the name
+      character(len=*), intent(in) :: name   !< final name, without folder
+      type(text_file_t), intent(out) :: file !< for put_line and the like; it knows of a failure
       character(len=:), allocatable :: path
 
       file%final_path = set%folder//'/'//name
@@ -268,8 +268,8 @@ contains
 
    !> Writes a line.
    subroutine put_line(file, line)
-      type(text_file_t), intent(inout) :: file
-      character(len=*), intent(in) :: line
+      type(text_file_t), intent(inout) :: file !< open; knows of a failure afterwards
+      character(len=*), intent(in) :: line     !< without end of line
 
       if (.not. is_ok(file%status)) return
       if (c_write_line(file%stream, line, len(line, kind=c_size_t)) == 0) call fail_to_write(file)
@@ -277,16 +277,16 @@ contains
 
    !> Writes some lines, each of which ends with NEW_LINE_CHARACTER.
    subroutine put_lines(file, lines)
-      type(text_file_t), intent(inout) :: file
-      character(len=*), contiguous, intent(in) :: lines(:)
+      type(text_file_t), intent(inout) :: file             !< open; knows of a failure afterwards
+      character(len=*), contiguous, intent(in) :: lines(:) !< with the ends of the lines
 
       call put_characters(file, lines, len(lines, kind=c_size_t)*size(lines, kind=c_size_t))
    end subroutine put_lines
 
    !> Writes a part of a line, or of many.
    subroutine put_text(file, text)
-      type(text_file_t), intent(inout) :: file
-      character(len=*), intent(in) :: text
+      type(text_file_t), intent(inout) :: file !< open; knows of a failure afterwards
+      character(len=*), intent(in) :: text     !< with ends of lines where they are wanted
 
       call put_characters(file, text, len(text, kind=c_size_t))
    end subroutine put_text
@@ -309,8 +309,8 @@ contains
 
    !> Completes a file. status: STATUS_FILE when any part of it could not be written.
    subroutine close_text(file, status)
-      type(text_file_t), intent(inout) :: file
-      type(status_t), intent(out) :: status
+      type(text_file_t), intent(inout) :: file !< open; is closed in any case
+      type(status_t), intent(out) :: status    !< STATUS_FILE where anything failed since open_text
 
       if (c_associated(file%stream)) then
          if (c_close_file(file%stream) == 0 .and. is_ok(file%status)) call fail_to_write(file)
@@ -321,9 +321,9 @@ contains
 
    !> Ends a set: commits it when all went well so far, else discards it.
    subroutine end_files(set, status, stale)
-      type(file_set_t), intent(in) :: set
-      type(status_t), intent(inout) :: status       !< of writing the files; of the whole set on return
-      type(string_t), intent(in), optional :: stale(:)
+      type(file_set_t), intent(in) :: set              !< all of its files closed
+      type(status_t), intent(inout) :: status          !< of writing the files; of the whole set on return
+      type(string_t), intent(in), optional :: stale(:) !< final names of former files, without folder
       type(string_t) :: none(0)
 
       if (.not. is_ok(status)) then
@@ -340,9 +340,9 @@ contains
    !>
    !> status: STATUS_FILE, and then the folder is as it was.
    subroutine commit_files(set, stale, status)
-      type(file_set_t), intent(in) :: set
+      type(file_set_t), intent(in) :: set           !< all of its files closed
       type(string_t), intent(in) :: stale(:)        !< names without folder
-      type(status_t), intent(out) :: status
+      type(status_t), intent(out) :: status         !< STATUS_FILE, and then nothing was replaced
 
       call find_obstacle(set%folder, set%names, stale, status)
       if (is_ok(status)) then
@@ -360,8 +360,8 @@ contains
    !>
    !> status: STATUS_FILE, and then the former files are there but for those that were replaced before.
    subroutine commit_over(set, status)
-      type(file_set_t), intent(in) :: set
-      type(status_t), intent(out) :: status
+      type(file_set_t), intent(in) :: set   !< all of its files closed
+      type(status_t), intent(out) :: status !< STATUS_FILE where a file could not be replaced
       type(string_t) :: none(0)
       integer :: i
 
@@ -399,7 +399,7 @@ contains
 
    !> Removes what was written under temporary names, and the folders that were made for it.
    subroutine discard_files(set)
-      type(file_set_t), intent(in) :: set
+      type(file_set_t), intent(in) :: set !< begun or not
       integer :: i
 
       if (.not. allocated(set%names)) return

@@ -20,7 +20,7 @@ module atrito_folder_claim
    type :: folder_claim_t
       type(string_t), allocatable :: made(:)         !< folders that were made for it
       character(len=:), allocatable :: lock          !< path of the file that is locked
-      integer :: descriptor = -1
+      integer :: descriptor = -1                     !< of c_open_lock; -1: nothing is claimed
    end type folder_claim_t
 
    integer, parameter :: MOST_TRIES = 5               !< to make the file; another run may remove the folder meanwhile
@@ -33,9 +33,9 @@ contains
    !>
    !> status: STATUS_FILE when the folder cannot be made, or another run keeps it too long. Then nothing is claimed.
    subroutine claim_folder(folder, claim, status, patience, silent)
-      character(len=*), intent(in) :: folder
-      type(folder_claim_t), intent(out) :: claim
-      type(status_t), intent(out) :: status
+      character(len=*), intent(in) :: folder         !< as the user wrote it
+      type(folder_claim_t), intent(out) :: claim     !< for release_folder
+      type(status_t), intent(out) :: status          !< STATUS_FILE without a folder, or where another run has it
       real(wp), intent(in), optional :: patience     !< [s] to wait for another run; default an hour
       logical, intent(in), optional :: silent        !< not a word about the wait
       integer :: tries
@@ -89,7 +89,7 @@ contains
 
    !> Ends a claim. Folders that were made for it and are empty are removed.
    subroutine release_folder(claim)
-      type(folder_claim_t), intent(inout) :: claim
+      type(folder_claim_t), intent(inout) :: claim !< of claim_folder; claims nothing afterwards
 
       if (allocated(claim%lock)) then
          call remove_file(claim%lock)

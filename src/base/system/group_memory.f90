@@ -14,7 +14,7 @@ module atrito_group_memory
 
    !> Where a version keeps its groups, and how it names what they tell.
    type :: version_t
-      character(len=24) :: folder
+      character(len=24) :: folder                  !< where its groups are folders
       character(len=24) :: limit, used             !< files
       character(len=24) :: files_in_memory(2)      !< labels in memory.stat
    end type version_t

@@ -52,7 +52,7 @@ contains
 
    !> '1.5 GiB'
    pure function memory_text(bytes) result(text)
-      integer(lp), intent(in) :: bytes
+      integer(lp), intent(in) :: bytes !< >= 0
       character(len=:), allocatable :: text
       character(len=3), parameter :: NAMES(5) = ['B  ', 'KiB', 'MiB', 'GiB', 'TiB']
       real(wp) :: x

@@ -49,9 +49,9 @@ contains
 
    !> All of some files of a folder, and those with their temporary names. status: STATUS_FILE, of the first that is another's.
    subroutine check_all_own(folder, names, status)
-      character(len=*), intent(in) :: folder
-      type(string_t), intent(in) :: names(:)
-      type(status_t), intent(out) :: status
+      character(len=*), intent(in) :: folder !< as the user wrote it; need not be there
+      type(string_t), intent(in) :: names(:) !< final names, without folder
+      type(status_t), intent(out) :: status  !< STATUS_FILE where one of them is not atrito's
       type(string_t), allocatable :: parts(:)
       character(len=:), allocatable :: c_folder
       integer :: i, k
@@ -75,8 +75,8 @@ contains
    !> Whether the system takes the name that a file has before its own, or the one that a former file of its name steps aside to.
    !> status: STATUS_FILE.
    subroutine check_length(folder, name, status)
-      character(len=*), intent(in) :: folder, name
-      type(status_t), intent(out) :: status
+      character(len=*), intent(in) :: folder, name !< as the user wrote it; final name of the file
+      type(status_t), intent(out) :: status        !< STATUS_FILE where name or path is too long
       integer :: length
 
       length = len(name) + len(TEMPORARY)
@@ -91,7 +91,7 @@ contains
 
    !> Names of a folder that end so.
    function names_with(folder, ending) result(names)
-      character(len=*), intent(in) :: folder, ending
+      character(len=*), intent(in) :: folder, ending !< of the files; end of a name, not all of it
       type(string_t), allocatable :: names(:)
       character(len=LONGEST_NAME) :: buffer
       integer :: i, length
@@ -110,9 +110,9 @@ contains
    !>
    !> status: STATUS_FILE, with what to do.
    subroutine check_own(path, status, may_be_read)
-      character(len=*), intent(in) :: path
-      type(status_t), intent(out) :: status
-      logical, intent(in), optional :: may_be_read
+      character(len=*), intent(in) :: path         !< of the file, which need not be there
+      type(status_t), intent(out) :: status        !< STATUS_FILE where it may not be replaced
+      logical, intent(in), optional :: may_be_read !< what takes its place holds all that it held
       integer :: kind
 
       kind = c_kind_of(path//c_null_char)
@@ -128,8 +128,8 @@ contains
 
    !> Whether a file is none that this run has read. status: STATUS_FILE.
    subroutine check_unread(path, status, may_be_read)
-      character(len=*), intent(in) :: path
-      type(status_t), intent(out) :: status
+      character(len=*), intent(in) :: path          !< of the file, which need not be there
+      type(status_t), intent(out) :: status         !< STATUS_FILE where this run has read it
       logical, intent(in), optional :: may_be_read  !< what takes its place holds all that it held
 
       if (present(may_be_read)) then
@@ -141,7 +141,7 @@ contains
 
    !> Removes a file that atrito wrote; another one stays.
    subroutine remove_own_file(path)
-      character(len=*), intent(in) :: path
+      character(len=*), intent(in) :: path !< of the file, which need not be there
 
       if (c_kind_of(path//c_null_char) /= PLAIN) return
       if (c_is_input(path//c_null_char) == 1) return
@@ -150,7 +150,7 @@ contains
 
    !> Clears the way for a file that is to be written under its temporary name.
    subroutine clear_temporary(path)
-      character(len=*), intent(in) :: path
+      character(len=*), intent(in) :: path !< of the temporary file, which need not be there
 
       if (c_kind_of(path//c_null_char) /= PLAIN) return
       if (c_is_input(path//c_null_char) == 1) return
@@ -209,7 +209,7 @@ contains
 
    !> Whether a plain file says that atrito wrote it.
    recursive logical function is_own(path)
-      character(len=*), intent(in) :: path
+      character(len=*), intent(in) :: path !< of the file, under its final or a temporary name
       character(len=HEAD) :: buffer
       character(len=:), allocatable :: name, kind
       integer :: n, family

@@ -21,14 +21,14 @@ contains
 
    !> Whether there is a file or a folder of this path; a link that leads nowhere is none.
    logical function file_exists(path)
-      character(len=*), intent(in) :: path
+      character(len=*), intent(in) :: path !< as the user wrote it
 
       file_exists = c_exists(path//c_null_char) == 1
    end function file_exists
 
    !> Whether there is a folder of this path, or a link to one.
    logical function is_folder(path)
-      character(len=*), intent(in) :: path
+      character(len=*), intent(in) :: path !< as the user wrote it
 
       is_folder = c_is_folder(path//c_null_char) == 1
    end function is_folder
@@ -36,7 +36,7 @@ contains
    !> The path of a file without links, `.` and `..`, which is the same for each of its names; `path` itself where there is no
    !> such file.
    function true_path(path) result(true)
-      character(len=*), intent(in) :: path
+      character(len=*), intent(in) :: path !< as the user wrote it
       character(len=:), allocatable :: true
       character(len=LONGEST_PATH) :: buffer
       integer :: length
@@ -48,7 +48,7 @@ contains
 
    !> The true path of a folder that may have to be made; what is missing of it is taken as it is written.
    recursive function target_path(path) result(target)
-      character(len=*), intent(in) :: path
+      character(len=*), intent(in) :: path !< as the user wrote it
       character(len=:), allocatable :: target
       integer :: slash
 
@@ -67,9 +67,9 @@ contains
    !>
    !> Another run may remove what it made just then: hence several tries. status: STATUS_FILE.
    subroutine make_folder(path, status, made)
-      character(len=*), intent(in) :: path
-      type(status_t), intent(out) :: status
-      type(string_t), allocatable, intent(inout), optional :: made(:)
+      character(len=*), intent(in) :: path                            !< of the folder, as the user wrote it
+      type(status_t), intent(out) :: status                           !< STATUS_FILE where it cannot be made or --confine forbids it
+      type(string_t), allocatable, intent(inout), optional :: made(:) !< paths that were made, the outer one first
       integer :: attempt, i
 
       if (c_may_hold(target_path(path)//c_null_char) == 0) then
@@ -97,7 +97,7 @@ contains
 
    !> Removes the folders that were made, where they are empty.
    subroutine remove_folders(made)
-      type(string_t), allocatable, intent(in) :: made(:)
+      type(string_t), allocatable, intent(in) :: made(:) !< by make_folder; not allocated: none
       integer :: i
 
       if (.not. allocated(made)) return
@@ -113,8 +113,8 @@ contains
    !> One that is missing is made and removed: links that lead nowhere, names that are too long and file systems that take no
    !> folders show in nothing else.
    subroutine check_folder(path, status)
-      character(len=*), intent(in) :: path
-      type(status_t), intent(out) :: status
+      character(len=*), intent(in) :: path  !< of the folder, as the user wrote it
+      type(status_t), intent(out) :: status !< STATUS_FILE where files cannot be written there
       type(string_t), allocatable :: made(:)
 
       if (c_may_hold(target_path(path)//c_null_char) == 0) then
@@ -152,7 +152,7 @@ contains
 
    !> A folder, or the nearest one above it that is there.
    recursive function nearest_folder(path) result(folder)
-      character(len=*), intent(in) :: path
+      character(len=*), intent(in) :: path !< as the user wrote it
       character(len=:), allocatable :: folder
 
       folder = path
@@ -172,14 +172,14 @@ contains
 
    !> Removes a file; one that is not there is no failure.
    subroutine remove_file(path)
-      character(len=*), intent(in) :: path
+      character(len=*), intent(in) :: path !< of the file, which need not be there
 
       call c_remove_file(path//c_null_char)
    end subroutine remove_file
 
    !> Removes a folder; one that is not empty stays.
    subroutine remove_empty_folder(path)
-      character(len=*), intent(in) :: path
+      character(len=*), intent(in) :: path !< of the folder, which need not be there
 
       call c_remove_folder(path//c_null_char)
    end subroutine remove_empty_folder

@@ -15,7 +15,7 @@ contains
 
    !> Makes a worker. is_worker tells whom of the two this is; made is false when there is no worker.
    subroutine begin_worker(is_worker, made, number)
-      logical, intent(out) :: is_worker, made
+      logical, intent(out) :: is_worker, made          !< this process is the new one; there is a new one
       integer, intent(out), optional :: number         !< of the worker's process
       integer :: id
 
@@ -42,8 +42,8 @@ contains
 
    !> Has the shell run a command and waits for its end, no longer than so many seconds.
    subroutine run_command(command, seconds, code)
-      character(len=*), intent(in) :: command
-      real(wp), intent(in) :: seconds
+      character(len=*), intent(in) :: command          !< as the shell takes it
+      real(wp), intent(in) :: seconds                  !< after which it is ended [s]
       integer, intent(out) :: code                     !< exit code; 128 and the number of the signal that ended it; TOO_LATE
 
       call flush_output()

@@ -19,10 +19,10 @@ contains
    !> What can be seen before anything is replaced: a folder in the place of a file, a file that this run has read, or one that its
    !> owner has protected.
    subroutine find_obstacle(folder, names, stale, status, may_be_read)
-      character(len=*), intent(in) :: folder
+      character(len=*), intent(in) :: folder        !< as the user wrote it, without / at its end
       type(string_t), intent(in) :: names(:)        !< that will be written, without folder
       type(string_t), intent(in) :: stale(:)        !< that will be removed, without folder
-      type(status_t), intent(out) :: status
+      type(status_t), intent(out) :: status         !< STATUS_FILE where something is in the way
       logical, intent(in), optional :: may_be_read  !< what is written holds all that the file held
       integer :: i
 
@@ -54,10 +54,10 @@ contains
 
    !> Gives all new files their names and removes the stale ones. status: STATUS_FILE, and then the former files are back.
    subroutine replace_files(folder, names, stale, status)
-      character(len=*), intent(in) :: folder
+      character(len=*), intent(in) :: folder        !< as the user wrote it, without / at its end
       type(string_t), intent(in) :: names(:)        !< of new files, which have temporary names; without folder
       type(string_t), intent(in) :: stale(:)        !< of former files that have no successor; a name may be among the new ones, too
-      type(status_t), intent(out) :: status
+      type(status_t), intent(out) :: status         !< STATUS_FILE, and then nothing has changed
       type(string_t), allocatable :: paths(:)       ! gfortran 12 spoils the lengths in one of fixed size
       logical :: is_aside(size(names) + size(stale))
       integer :: i, j, done
@@ -88,7 +88,7 @@ contains
    !> What a run left that was killed among its renamings: former files come back, whatever deck they are of; where all new ones
    !> have their names already, those go that stepped aside. Then files go that were not complete.
    subroutine recover_files(folder)
-      character(len=*), intent(in) :: folder
+      character(len=*), intent(in) :: folder !< as the user wrote it, without / at its end
       type(string_t), allocatable :: names(:)
       logical :: is_whole
       integer :: i
@@ -122,9 +122,9 @@ contains
 
    !> Gives new files their names, over the former ones.
    subroutine rename_over(folder, names, status)
-      character(len=*), intent(in) :: folder
+      character(len=*), intent(in) :: folder        !< as the user wrote it, without / at its end
       type(string_t), intent(in) :: names(:)        !< of new files, which have temporary names; without folder
-      type(status_t), intent(out) :: status
+      type(status_t), intent(out) :: status         !< STATUS_FILE where one, and none behind it, has its name
       integer :: i
 
       do i = 1, size(names)

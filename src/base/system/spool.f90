@@ -13,7 +13,7 @@ module atrito_spool
 
    type :: spool_t
       logical :: is_sound = .false.                  !< there is a file, and all that was asked of it so far was done
-      type(c_ptr), private :: stream = c_null_ptr
+      type(c_ptr), private :: stream = c_null_ptr    !< of c_open_nameless; null: closed
    end type spool_t
 
    !> Writes values at the place where the file is, or reads as many from there.
@@ -27,8 +27,8 @@ contains
 
    !> Opens a file in a folder, or in the nearest one above it that is there. Where that fails, it is not sound.
    subroutine open_spool(folder, spool)
-      character(len=*), intent(in) :: folder
-      type(spool_t), intent(out) :: spool
+      character(len=*), intent(in) :: folder !< need not be there
+      type(spool_t), intent(out) :: spool    !< `is_sound` says whether there is a file
 
       spool%stream = c_open_nameless(nearest_folder(folder)//c_null_char)
       spool%is_sound = c_associated(spool%stream)
@@ -36,7 +36,7 @@ contains
 
    !> Where the file is [bytes].
    integer(lp) function place_of(spool)
-      type(spool_t), intent(in) :: spool
+      type(spool_t), intent(in) :: spool !< without a file the place is -1
 
       place_of = -1
       if (c_associated(spool%stream)) place_of = c_place_in_file(spool%stream)
@@ -44,15 +44,15 @@ contains
 
    !> Goes to a place, before it is read or written there. What was written is with the system then, or the spool not sound.
    subroutine go_to(spool, place)
-      type(spool_t), intent(inout) :: spool
-      integer(lp), intent(in) :: place
+      type(spool_t), intent(inout) :: spool !< `is_sound` may become false
+      integer(lp), intent(in) :: place      !< of place_of [bytes]
 
       if (spool%is_sound) spool%is_sound = c_go_to_place(spool%stream, place) == 1
    end subroutine go_to
 
    !> After a failure to write: what was there before it can be read.
    subroutine give_up_rest(spool)
-      type(spool_t), intent(inout) :: spool
+      type(spool_t), intent(inout) :: spool !< becomes sound if it has a file, and is at its beginning
       integer :: done
 
       if (.not. c_associated(spool%stream)) return
@@ -61,17 +61,17 @@ contains
    end subroutine give_up_rest
 
    subroutine pass_numbers(spool, is_reading, values)
-      type(spool_t), intent(inout) :: spool
-      logical, intent(in) :: is_reading
+      type(spool_t), intent(inout) :: spool                   !< goes on behind them
+      logical, intent(in) :: is_reading                       !< values are read; else written
       type(*), intent(inout), contiguous, target :: values(:) !< reals or longs
 
       call move_bytes(spool, is_reading, c_loc(values), NUMBER_BYTES*size(values, kind=c_size_t))
    end subroutine pass_numbers
 
    subroutine pass_text(spool, is_reading, text)
-      type(spool_t), intent(inout) :: spool
-      logical, intent(in) :: is_reading
-      character(len=*), intent(inout), target :: text
+      type(spool_t), intent(inout) :: spool           !< goes on behind it
+      logical, intent(in) :: is_reading               !< the text is read; else written
+      character(len=*), intent(inout), target :: text !< of the length that is passed
 
       call move_bytes(spool, is_reading, c_loc(text), len(text, kind=c_size_t))
    end subroutine pass_text
@@ -92,7 +92,7 @@ contains
 
    !> Closes the file, which is gone then, and makes the spool as it was before it was opened.
    subroutine close_spool(spool)
-      type(spool_t), intent(inout) :: spool
+      type(spool_t), intent(inout) :: spool !< open or not
       integer :: done
 
       if (c_associated(spool%stream)) done = c_close_file(spool%stream)

@@ -13,7 +13,7 @@ contains
 
    !> The number that follows a label at the beginning of a line of a file; UNLIMITED where there is none.
    integer(lp) function count_of(path, label, unit) result(bytes)
-      character(len=*), intent(in) :: path, label
+      character(len=*), intent(in) :: path, label      !< of the file; with which the line begins
       integer(lp), intent(in) :: unit                  !< bytes
       character(len=:), allocatable :: line
       character(len=*), parameter :: BLANKS = ' '//achar(9)  ! a tab follows the labels of /proc/self/status

@@ -62,7 +62,7 @@ contains
    pure subroutine find_chunk(chunk, n, first, last)
       integer(ip), intent(in) :: chunk            !< 1 .. chunk_count(n)
       integer(ip), intent(in) :: n              !< length of the list
-      integer(ip), intent(out) :: first, last
+      integer(ip), intent(out) :: first, last   !< places in the list
 
       first = (chunk - 1)*CHUNK_LENGTH + 1
       last = min(chunk*CHUNK_LENGTH, n)

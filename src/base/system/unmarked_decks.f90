@@ -34,7 +34,7 @@ contains
    !> cannot be read.
    function listed_line(folder, deck) result(line)
       character(len=*), intent(in) :: folder         !< '' or with a / at its end
-      character(len=*), intent(in) :: deck
+      character(len=*), intent(in) :: deck           !< name of the deck, without folder and .inp
       character(len=:), allocatable :: line
       type(text_digest_t) :: digest
       character(len=:), allocatable :: text, mesh, name

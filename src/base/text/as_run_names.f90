@@ -18,7 +18,7 @@ contains
 
    !> Of the n-th mesh, of letters that need no quotes.
    pure function mesh_copy_name(deck, n) result(name)
-      character(len=*), intent(in) :: deck
+      character(len=*), intent(in) :: deck           !< name of the deck, without folder and .inp
       integer(ip), intent(in) :: n                   !< >= 1
       character(len=:), allocatable :: name
       character(len=*), parameter :: PLAIN = 'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-+'

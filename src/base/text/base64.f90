@@ -11,7 +11,7 @@ contains
 
    !> Letters that so many bytes need.
    pure integer function base64_length(n_bytes) result(n)
-      integer, intent(in) :: n_bytes
+      integer, intent(in) :: n_bytes !< >= 0
 
       n = 4*((n_bytes + 2)/3)
    end function base64_length

@@ -14,7 +14,7 @@ module atrito_digest
    integer(lp), parameter :: PLACE(2) = [1103515245_lp, 805306457_lp]
 
    type :: digest_t
-      integer(lp) :: value(2) = [1_lp, 1_lp]
+      integer(lp) :: value(2) = [1_lp, 1_lp] !< the two polynomials so far, 0 .. PRIME - 1
    end type digest_t
 
    !> That of a text which comes in parts: how it is cut does not matter. Four characters are a word.
@@ -50,8 +50,8 @@ contains
    end subroutine add_word
 
    pure subroutine add_real(digest, value)
-      type(digest_t), intent(inout) :: digest
-      real(wp), intent(in) :: value
+      type(digest_t), intent(inout) :: digest !< gets the value
+      real(wp), intent(in) :: value           !< by its bits: -0 is not 0
       integer(lp) :: bits
 
       bits = transfer(value, bits)
@@ -60,22 +60,22 @@ contains
    end subroutine add_real
 
    pure subroutine add_integer(digest, value)
-      type(digest_t), intent(inout) :: digest
-      integer(ip), intent(in) :: value
+      type(digest_t), intent(inout) :: digest !< gets the value
+      integer(ip), intent(in) :: value        !< by its bits
 
       call add_word(digest, ibits(int(value, lp), 0, 32))
    end subroutine add_integer
 
    pure subroutine add_logical(digest, value)
-      type(digest_t), intent(inout) :: digest
-      logical, intent(in) :: value
+      type(digest_t), intent(inout) :: digest !< gets the value
+      logical, intent(in) :: value            !< 1 or 0
 
       call add_word(digest, merge(1_lp, 0_lp, value))
    end subroutine add_logical
 
    pure subroutine add_text(digest, text)
-      type(digest_t), intent(inout) :: digest
-      character(len=*), intent(in) :: text
+      type(digest_t), intent(inout) :: digest !< gets length and letters
+      character(len=*), intent(in) :: text    !< of any bytes
       integer :: i
 
       call add_integer(digest, len(text, kind=ip))
@@ -85,8 +85,8 @@ contains
    end subroutine add_text
 
    pure subroutine add_reals(digest, values)
-      type(digest_t), intent(inout) :: digest
-      real(wp), intent(in) :: values(:)
+      type(digest_t), intent(inout) :: digest !< gets length and values
+      real(wp), intent(in) :: values(:)       !< (n)
       integer :: i
 
       call add_integer(digest, size(values, kind=ip))
@@ -96,8 +96,8 @@ contains
    end subroutine add_reals
 
    pure subroutine add_columns(digest, values)
-      type(digest_t), intent(inout) :: digest
-      real(wp), intent(in) :: values(:, :)
+      type(digest_t), intent(inout) :: digest !< gets length and columns
+      real(wp), intent(in) :: values(:, :)    !< (rows, n) each column with its length
       integer :: i
 
       call add_integer(digest, size(values, 2, kind=ip))
@@ -107,8 +107,8 @@ contains
    end subroutine add_columns
 
    pure subroutine add_integers(digest, values)
-      type(digest_t), intent(inout) :: digest
-      integer(ip), intent(in) :: values(:)
+      type(digest_t), intent(inout) :: digest !< gets length and values
+      integer(ip), intent(in) :: values(:)    !< (n)
       integer :: i
 
       call add_integer(digest, size(values, kind=ip))
@@ -118,8 +118,8 @@ contains
    end subroutine add_integers
 
    pure subroutine add_table(digest, values)
-      type(digest_t), intent(inout) :: digest
-      integer(ip), intent(in) :: values(:, :)
+      type(digest_t), intent(inout) :: digest !< gets length and columns
+      integer(ip), intent(in) :: values(:, :) !< (rows, n) each column with its length
       integer :: i
 
       call add_integer(digest, size(values, 2, kind=ip))
@@ -129,8 +129,8 @@ contains
    end subroutine add_table
 
    pure subroutine add_logicals(digest, values)
-      type(digest_t), intent(inout) :: digest
-      logical, intent(in) :: values(:)
+      type(digest_t), intent(inout) :: digest !< gets length and values
+      logical, intent(in) :: values(:)        !< (n)
       integer :: i
 
       call add_integer(digest, size(values, kind=ip))
@@ -140,32 +140,32 @@ contains
    end subroutine add_logicals
 
    pure subroutine add_allocated_reals(digest, values)
-      type(digest_t), intent(inout) :: digest
-      real(wp), allocatable, intent(in) :: values(:)
+      type(digest_t), intent(inout) :: digest        !< gets whether it is allocated, and the values
+      real(wp), allocatable, intent(in) :: values(:) !< (n), or not allocated
 
       call add_logical(digest, allocated(values))
       if (allocated(values)) call add_reals(digest, values)
    end subroutine add_allocated_reals
 
    pure subroutine add_allocated_columns(digest, values)
-      type(digest_t), intent(inout) :: digest
-      real(wp), allocatable, intent(in) :: values(:, :)
+      type(digest_t), intent(inout) :: digest           !< gets whether it is allocated, and the columns
+      real(wp), allocatable, intent(in) :: values(:, :) !< (rows, n), or not allocated
 
       call add_logical(digest, allocated(values))
       if (allocated(values)) call add_columns(digest, values)
    end subroutine add_allocated_columns
 
    pure subroutine add_allocated_integers(digest, values)
-      type(digest_t), intent(inout) :: digest
-      integer(ip), allocatable, intent(in) :: values(:)
+      type(digest_t), intent(inout) :: digest           !< gets whether it is allocated, and the values
+      integer(ip), allocatable, intent(in) :: values(:) !< (n), or not allocated
 
       call add_logical(digest, allocated(values))
       if (allocated(values)) call add_integers(digest, values)
    end subroutine add_allocated_integers
 
    pure subroutine add_allocated_logicals(digest, values)
-      type(digest_t), intent(inout) :: digest
-      logical, allocatable, intent(in) :: values(:)
+      type(digest_t), intent(inout) :: digest       !< gets whether it is allocated, and the values
+      logical, allocatable, intent(in) :: values(:) !< (n), or not allocated
 
       call add_logical(digest, allocated(values))
       if (allocated(values)) call add_logicals(digest, values)
@@ -181,8 +181,8 @@ contains
 
    !> Takes the next part of a text.
    pure subroutine add_characters(digest, text)
-      type(text_digest_t), intent(inout) :: digest
-      character(len=*), intent(in) :: text
+      type(text_digest_t), intent(inout) :: digest !< of the parts before
+      character(len=*), intent(in) :: text         !< goes on with them
       integer(lp) :: value(2), word
       integer :: i, first
 
@@ -226,7 +226,7 @@ contains
 
    !> Sixteen hexadecimal digits of a text.
    pure function hexadecimal(digest) result(text)
-      type(text_digest_t), intent(in) :: digest
+      type(text_digest_t), intent(in) :: digest !< of the whole text
       character(len=16) :: text
       character(len=16), parameter :: DIGITS = '0123456789abcdef'
       type(digest_t) :: whole
@@ -245,7 +245,7 @@ contains
 
    !> A digest as text: its two numbers, 0 to 2**31 - 2, with a hyphen between them.
    pure function digest_text(digest) result(text)
-      type(digest_t), intent(in) :: digest
+      type(digest_t), intent(in) :: digest !< of all values
       character(len=:), allocatable :: text
 
       text = to_text(digest%value(1))//'-'//to_text(digest%value(2))

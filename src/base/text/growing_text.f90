@@ -16,8 +16,8 @@ contains
 
    !> Puts characters behind those that are there; where there is no room, it doubles.
    pure subroutine append_text(text, more)
-      type(growing_text_t), intent(inout) :: text
-      character(len=*), intent(in) :: more
+      type(growing_text_t), intent(inout) :: text !< gets longer
+      character(len=*), intent(in) :: more        !< may be empty
       character(len=:), allocatable :: longer
       integer(ip) :: needed
 
@@ -34,8 +34,8 @@ contains
 
    !> Gives the text away; what is left is an empty one.
    pure subroutine take_text(text, whole)
-      type(growing_text_t), intent(inout) :: text
-      character(len=:), allocatable, intent(out) :: whole
+      type(growing_text_t), intent(inout) :: text         !< is empty afterwards
+      character(len=:), allocatable, intent(out) :: whole !< all letters; '' of an empty text
 
       whole = ''
       if (text%n > 0) whole = text%letters(:text%n)

@@ -12,7 +12,7 @@ contains
 
    !> All members are there, always; what a message has not is null.
    function json_of_message(message) result(line)
-      type(message_t), intent(in) :: message
+      type(message_t), intent(in) :: message !< as it was added
       character(len=:), allocatable :: line
       logical :: has_place
 
@@ -71,7 +71,7 @@ contains
 
    !> A text in quotes. Bytes that are not UTF-8 are taken for Latin-1: the text of a deck may be anything, JSON is UTF-8.
    pure function json_text(text) result(quoted)
-      character(len=*), intent(in) :: text
+      character(len=*), intent(in) :: text !< any bytes
       character(len=:), allocatable :: quoted
       integer :: i, n
 

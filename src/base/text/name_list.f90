@@ -10,7 +10,7 @@ module atrito_name_list
    !> The letters of all names stand one after the other. (A list of strings here would make a module file that gfortran 12 cannot
    !> read again.)
    type :: name_list_t
-      integer(ip) :: n = 0
+      integer(ip) :: n = 0                                 !< names in the list
       type(growing_text_t), private :: text                !< the letters
       integer(ip), allocatable, private :: last(:)         !< (0:) last letter of each name; last(0) = 0
       integer(ip), allocatable, private :: place(:)        !< (0:2**k-1) hash table: places in the list; 0: free
@@ -22,8 +22,8 @@ contains
 
    !> Appends a name; of several that are the same the first is found.
    pure subroutine add_name(list, name)
-      type(name_list_t), intent(inout) :: list
-      character(len=*), intent(in) :: name
+      type(name_list_t), intent(inout) :: list !< gets it as the last one
+      character(len=*), intent(in) :: name     !< blanks at its end do not count
       integer(ip) :: slot
 
       call make_room(list)
@@ -36,16 +36,16 @@ contains
 
    !> The name is one of the list, without case.
    pure logical function has_name(list, name)
-      type(name_list_t), intent(in) :: list
-      character(len=*), intent(in) :: name
+      type(name_list_t), intent(in) :: list !< may be empty
+      character(len=*), intent(in) :: name  !< blanks at its end do not count
 
       has_name = find_name(list, name) > 0
    end function has_name
 
    !> Place of a name in the list, without case; 0 when it is not there.
    pure integer(ip) function find_name(list, name) result(place)
-      type(name_list_t), intent(in) :: list
-      character(len=*), intent(in) :: name
+      type(name_list_t), intent(in) :: list !< may be empty
+      character(len=*), intent(in) :: name  !< blanks at its end do not count
 
       place = 0
       if (list%n > 0) place = list%place(find_slot(list, name))
@@ -53,7 +53,7 @@ contains
 
    !> All names in their order.
    pure function names_of(list) result(names)
-      type(name_list_t), intent(in) :: list
+      type(name_list_t), intent(in) :: list !< may be empty
       type(string_t), allocatable :: names(:)
       integer(ip) :: i
 

@@ -34,9 +34,9 @@ contains
 
    !> Reads a real; the nearest double, as the compiler would. `outcome` is one of NUMBER_*.
    pure subroutine read_real(text, value, outcome)
-      character(len=*), intent(in) :: text
-      real(wp), intent(out) :: value
-      integer, intent(out) :: outcome
+      character(len=*), intent(in) :: text !< without blanks round it
+      real(wp), intent(out) :: value       !< 0 where the outcome is not NUMBER_OK
+      integer, intent(out) :: outcome      !< NUMBER_OK, _MALFORMED or _TOO_LARGE
       integer(lp) :: mantissa
       integer :: digits, exponent, ios
       logical :: negative, whole, decided
@@ -245,9 +245,9 @@ contains
 
    !> Reads an integer; `outcome` is one of NUMBER_*.
    pure subroutine read_integer(text, value, outcome)
-      character(len=*), intent(in) :: text
-      integer(ip), intent(out) :: value
-      integer, intent(out) :: outcome
+      character(len=*), intent(in) :: text !< without blanks round it
+      integer(ip), intent(out) :: value    !< 0 where the outcome is not NUMBER_OK
+      integer, intent(out) :: outcome      !< any of NUMBER_*
       integer(lp) :: mantissa
       integer :: digits, exponent
       logical :: negative, whole

@@ -22,15 +22,15 @@ module atrito_patched_text
 
    !> The pieces follow each other.
    type :: patched_text_t
-      type(string_t), allocatable :: texts(:)
+      type(string_t), allocatable :: texts(:)        !< that pieces are places of; the caller sets them
       type(growing_text_t) :: words                  !< all words between the places
-      integer(ip) :: n = 0
-      type(piece_t), allocatable :: pieces(:)
+      integer(ip) :: n = 0                           !< pieces
+      type(piece_t), allocatable :: pieces(:)        !< (n) or more, in the order of the text
    end type patched_text_t
 
    type :: named_text_t
       character(len=:), allocatable :: name          !< of the file, without folder
-      type(patched_text_t) :: text
+      type(patched_text_t) :: text                   !< its contents
    end type named_text_t
 
    integer, parameter :: SOME = 64
@@ -39,8 +39,8 @@ contains
 
    !> Appends a place of one of the texts; an empty one is passed over.
    pure subroutine append_place(patched, text, first, last)
-      type(patched_text_t), intent(inout) :: patched
-      integer(ip), intent(in) :: text, first, last
+      type(patched_text_t), intent(inout) :: patched !< gets a piece more
+      integer(ip), intent(in) :: text, first, last   !< place in texts; its characters from here to there
 
       if (last < first) return
       if (.not. allocated(patched%pieces)) allocate (patched%pieces(SOME))
@@ -51,8 +51,8 @@ contains
 
    !> Appends words of their own.
    pure subroutine append_words(patched, words)
-      type(patched_text_t), intent(inout) :: patched
-      character(len=*), intent(in) :: words
+      type(patched_text_t), intent(inout) :: patched !< gets a piece more
+      character(len=*), intent(in) :: words          !< copied; may be empty
       integer(ip) :: first
 
       first = patched%words%n + 1
@@ -62,10 +62,10 @@ contains
 
    !> Writes it as a file of a set. status: STATUS_FILE when it could not be written.
    subroutine write_patched(set, name, patched, status, before, behind)
-      type(file_set_t), intent(inout) :: set
+      type(file_set_t), intent(inout) :: set                     !< begun; gets the file
       character(len=*), intent(in) :: name           !< final name, without folder
-      type(patched_text_t), intent(in) :: patched
-      type(status_t), intent(out) :: status
+      type(patched_text_t), intent(in) :: patched                !< pieces in their order
+      type(status_t), intent(out) :: status                      !< STATUS_FILE where it could not be written
       character(len=*), intent(in), optional :: before, behind   !< text that is not part of it
       type(text_file_t) :: file
       integer(ip) :: i
@@ -87,9 +87,9 @@ contains
 
    !> The first characters of a text, and its last ones where they are not among those.
    pure subroutine take_ends(patched, room, front, back)
-      type(patched_text_t), intent(in) :: patched
-      integer(ip), intent(in) :: room                !< characters of each at most
-      character(len=:), allocatable, intent(out) :: front, back
+      type(patched_text_t), intent(in) :: patched               !< pieces in their order
+      integer(ip), intent(in) :: room                           !< characters of each at most
+      character(len=:), allocatable, intent(out) :: front, back !< first characters; last ones, '' where `front` has all
       integer(ip) :: i, begin, total
 
       total = sum(patched%pieces(:patched%n)%last - patched%pieces(:patched%n)%first + 1)
@@ -119,7 +119,7 @@ contains
 
    !> Sixteen hexadecimal digits of texts one after the other, whatever the pieces they are made of.
    pure function digest_of_texts(list) result(text)
-      type(named_text_t), intent(in) :: list(:)
+      type(named_text_t), intent(in) :: list(:) !< in the order in which they count
       character(len=16) :: text
       type(text_digest_t) :: digest
       integer :: i

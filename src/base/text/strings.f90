@@ -10,12 +10,12 @@ module atrito_strings
 
    !> A string of its own length, for lists of strings.
    type :: string_t
-      character(len=:), allocatable :: s
+      character(len=:), allocatable :: s !< not allocated: nothing has been set
    end type string_t
 
    !> Strings that come one after the other, for lists that may become long.
    type :: string_list_t
-      integer(ip) :: n = 0
+      integer(ip) :: n = 0                                 !< strings in the list
       type(string_t), allocatable, private :: strings(:)   !< those up to n are in use
    end type string_list_t
 
@@ -31,7 +31,7 @@ contains
 
    !> A text of the same length with the letters A to Z made small; other bytes stay as they are.
    pure function lower_case(text) result(lower)
-      character(len=*), intent(in) :: text
+      character(len=*), intent(in) :: text !< any bytes
       character(len=len(text)) :: lower
       integer :: i
 
@@ -43,7 +43,7 @@ contains
 
    !> A text of the same length with the letters a to z made capitals; other bytes stay as they are.
    pure function upper_case(text) result(upper)
-      character(len=*), intent(in) :: text
+      character(len=*), intent(in) :: text !< any bytes
       character(len=len(text)) :: upper
       integer :: i
 
@@ -55,8 +55,8 @@ contains
 
    !> How often a symbol stands in a text; quick for long ones.
    pure integer(lp) function count_symbol(text, symbol) result(n)
-      character(len=*), intent(in) :: text
-      character(len=1), intent(in) :: symbol
+      character(len=*), intent(in) :: text   !< any bytes
+      character(len=1), intent(in) :: symbol !< one byte
       integer, parameter :: PIECE = 4096
       integer :: first, i, found
 
@@ -72,7 +72,7 @@ contains
 
    !> Names are without case.
    pure logical function same_name(a, b)
-      character(len=*), intent(in) :: a, b
+      character(len=*), intent(in) :: a, b !< blanks at their ends do not count
 
       integer :: i, n
 
@@ -87,7 +87,7 @@ contains
    end function same_name
 
    pure function integer_to_text(i) result(text)
-      integer(ip), intent(in) :: i
+      integer(ip), intent(in) :: i !< any integer
       character(len=:), allocatable :: text
 
       text = long_to_text(int(i, lp))
@@ -95,7 +95,7 @@ contains
 
    !> By digits: a formatted write takes thirty times as long, and a listing is full of numbers.
    pure function long_to_text(i) result(text)
-      integer(lp), intent(in) :: i
+      integer(lp), intent(in) :: i !< any integer
       character(len=:), allocatable :: text
       character(len=24) :: buffer
       integer(lp) :: rest
@@ -117,8 +117,8 @@ contains
 
    !> Real to text for messages: shortest of fixed and exponent form with `digits` significant digits (default 6).
    pure function real_to_text(x, digits) result(text)
-      real(wp), intent(in) :: x
-      integer, intent(in), optional :: digits
+      real(wp), intent(in) :: x               !< finite
+      integer, intent(in), optional :: digits !< significant ones, 1 .. 17
       character(len=:), allocatable :: text
       character(len=40) :: buffer
       integer :: d, e
@@ -180,8 +180,8 @@ contains
 
    !> The strings of a list with a separator between them.
    pure function join(list, separator) result(text)
-      type(string_t), intent(in) :: list(:)
-      character(len=*), intent(in) :: separator
+      type(string_t), intent(in) :: list(:)     !< all of them allocated
+      character(len=*), intent(in) :: separator !< may be empty
       character(len=:), allocatable :: text
       integer :: i, n
 
@@ -201,7 +201,7 @@ contains
 
    !> Words of a table as strings, without the blanks at their ends.
    pure function trimmed_strings(words) result(list)
-      character(len=*), intent(in) :: words(:)
+      character(len=*), intent(in) :: words(:) !< of one length, filled up with blanks
       type(string_t) :: list(size(words))
       integer :: i
 
@@ -213,8 +213,8 @@ contains
    !> Adds a text at the end of a list; a list that is not allocated counts as an empty one. The texts before it are moved, not
    !> copied: n of them take n such steps, so long lists are made by add_string.
    pure subroutine append_string(list, text)
-      type(string_t), allocatable, intent(inout) :: list(:)
-      character(len=*), intent(in) :: text
+      type(string_t), allocatable, intent(inout) :: list(:) !< becomes longer by one
+      character(len=*), intent(in) :: text                  !< is copied
       type(string_t), allocatable :: longer(:)
       integer :: i, n
 
@@ -230,8 +230,8 @@ contains
 
    !> Appends a string; where there is no room, it doubles, and the strings are handed on without a copy.
    pure subroutine add_string(list, text)
-      type(string_list_t), intent(inout) :: list
-      character(len=*), intent(in) :: text
+      type(string_list_t), intent(inout) :: list !< gets one string more
+      character(len=*), intent(in) :: text       !< is copied
 
       if (.not. allocated(list%strings)) allocate (list%strings(16))
       if (list%n == size(list%strings)) call move_strings(list, 2*list%n)
@@ -241,8 +241,8 @@ contains
 
    !> Gives the strings away; what is left is an empty list.
    pure subroutine take_strings(list, strings)
-      type(string_list_t), intent(inout) :: list
-      type(string_t), allocatable, intent(out) :: strings(:)
+      type(string_list_t), intent(inout) :: list             !< is empty afterwards
+      type(string_t), allocatable, intent(out) :: strings(:) !< (n) in the order in which they came
 
       call move_strings(list, list%n)
       call move_alloc(list%strings, strings)
@@ -264,7 +264,7 @@ contains
 
    !> Least number of single-character changes (insert, delete, replace, swap of neighbours) from a to b, without case.
    pure integer function edit_distance(a, b) result(distance)
-      character(len=*), intent(in) :: a, b
+      character(len=*), intent(in) :: a, b !< in either case
       integer :: d(0:len(a), 0:len(b))
       character(len=len(a)) :: x
       character(len=len(b)) :: y
@@ -298,9 +298,9 @@ contains
    !> Up to `most` names of `known` that are near `name`, nearest first: a third of its letters wrong at most, or one name begins
    !> the other.
    pure function nearest_names(name, known, most) result(near)
-      character(len=*), intent(in) :: name
-      type(string_t), intent(in) :: known(:)
-      integer, intent(in) :: most
+      character(len=*), intent(in) :: name   !< as the user wrote it
+      type(string_t), intent(in) :: known(:) !< valid names
+      integer, intent(in) :: most            !< the longest list wanted
       type(string_t), allocatable :: near(:)
       integer :: distance(size(known)), allowed, i, best
 
@@ -347,7 +347,7 @@ contains
 
    !> Whether a text begins with another one, letter by letter.
    pure logical function begins_with(text, beginning)
-      character(len=*), intent(in) :: text, beginning
+      character(len=*), intent(in) :: text, beginning !< to look into; what it may begin with
 
       begins_with = .false.
       if (len(text) >= len(beginning)) begins_with = text(:len(beginning)) == beginning
@@ -355,7 +355,7 @@ contains
 
    !> Whether a text has something before this ending.
    pure logical function ends_with(text, ending)
-      character(len=*), intent(in) :: text, ending
+      character(len=*), intent(in) :: text, ending !< to look into; what it may end with
 
       ends_with = .false.
       if (len(text) > len(ending)) ends_with = text(len(text) - len(ending) + 1:) == ending
@@ -364,7 +364,7 @@ contains
    !> Whether a text is a pattern in which each * stands for any letters, or none; without case. A * takes as few letters as it can,
    !> and more where what follows does not fit: the last * alone can be wrong, since what stood before it fits in any case.
    pure logical function fits_pattern(text, pattern) result(fits)
-      character(len=*), intent(in) :: text, pattern
+      character(len=*), intent(in) :: text, pattern !< to look into; with any number of *
       integer :: i, k, star, taken                      ! places in both; the last *, and where what it has not taken begins
 
       i = 1
@@ -395,7 +395,7 @@ contains
 
    !> Name of a deck: its path without folder and .inp.
    pure function deck_name(path) result(name)
-      character(len=*), intent(in) :: path
+      character(len=*), intent(in) :: path !< with folders or without
       character(len=:), allocatable :: name
 
       name = path(index(path, '/', back=.true.) + 1:)
@@ -404,8 +404,8 @@ contains
 
    !> A text of the same length with one letter in the place of each of some.
    pure function replaced(text, letters, by)
-      character(len=*), intent(in) :: text, letters
-      character(len=1), intent(in) :: by
+      character(len=*), intent(in) :: text, letters !< to look into; each of them is replaced
+      character(len=1), intent(in) :: by            !< in the place of each
       character(len=len(text)) :: replaced
       integer :: i
 
@@ -417,7 +417,7 @@ contains
 
    !> A text in which each of some letters stands as another format writes it.
    pure function recoded(text, letters, codes)
-      character(len=*), intent(in) :: text, letters
+      character(len=*), intent(in) :: text, letters !< to look into; each of them is replaced
       character(len=*), intent(in) :: codes(:)      !< (len(letters)), without the blanks behind them
       character(len=:), allocatable :: recoded
       integer :: i, k
@@ -434,7 +434,7 @@ contains
    pure subroutine break_line(text, room, first, last, next)
       character(len=*), intent(in) :: text          !< without blanks at its end
       integer, intent(in) :: room                   !< > 0
-      integer, intent(in) :: first
+      integer, intent(in) :: first                  !< place where the line begins
       integer, intent(out) :: last, next            !< next > len(text): that was the last line
       integer :: blank
 

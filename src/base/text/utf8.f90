@@ -33,7 +33,7 @@ contains
 
    !> Whether a text has characters that disturb (visible), but for tabs and ends of lines.
    pure logical function has_controls(text)
-      character(len=*), intent(in) :: text
+      character(len=*), intent(in) :: text !< any bytes
       character(len=len(text)) :: plain
       integer :: i
 
@@ -47,7 +47,7 @@ contains
    !> Blanks for tabs, and ? for each byte of what disturbs a terminal or lies about the order of letters: control characters, those
    !> of one byte and of two (C1), and marks that turn the direction. The names of files and what a deck says are the user's.
    pure function visible(source) result(text)
-      character(len=*), intent(in) :: source
+      character(len=*), intent(in) :: source !< any bytes
       character(len=len(source)) :: text
       integer :: i, n
 

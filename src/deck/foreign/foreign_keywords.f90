@@ -14,15 +14,15 @@ module atrito_foreign_keywords
 
    !> What lies outside, and what to do instead. Subjects are known by their places in the list of all.
    type :: subject_t
-      character(len=:), allocatable :: key, what, instead
-      logical :: is_scene = .false.                !< nothing that is left of such a deck means what it says
+      character(len=:), allocatable :: key, what, instead !< short name; what atrito does not do; what to do
+      logical :: is_scene = .false.                       !< nothing that is left of such a deck means what it says
    end type subject_t
 
 contains
 
    !> All subjects, in the order of the manual.
    pure subroutine take_subjects(subjects)
-      type(subject_t), allocatable, intent(out) :: subjects(:)
+      type(subject_t), allocatable, intent(out) :: subjects(:) !< (all) their places are known to cards
       type(string_t), allocatable :: lines(:)
       integer :: i, k, first, second, n
 
@@ -44,7 +44,7 @@ contains
 
    !> The place of a subject; 0: there is none of this key.
    pure integer function subject_named(key) result(place)
-      character(len=*), intent(in) :: key
+      character(len=*), intent(in) :: key !< of a subject, in the letters of the list
       type(string_t), allocatable :: lines(:)
 
       call take_foreign_lines(lines)
@@ -167,7 +167,7 @@ contains
 
    !> The subject of elements of other programs; 0: no program has such a type, as far as is known.
    pure integer function ask_element_type(name) result(subject)
-      character(len=*), intent(in) :: name
+      character(len=*), intent(in) :: name !< in any case
       character(len=:), allocatable :: word, key
       type(string_t), allocatable :: lines(:)
       integer :: n

@@ -19,7 +19,7 @@ module atrito_gmsh_elements
    !> Where the last element of format 2.2 belongs.
    type :: old_part_t
       integer(ip) :: key(3) = -1                       !< dimension, entity, group
-      integer(ip) :: part = 0
+      integer(ip) :: part = 0                          !< of this key, place in parts; 0: none yet
    end type old_part_t
 
 contains
@@ -27,8 +27,8 @@ contains
    !> The section $Elements, behind its first line.
    subroutine read_elements(is_new, words, mesh)
       logical, intent(in) :: is_new                    !< format 4.1, else 2.2
-      type(words_t), intent(inout) :: words
-      type(gmsh_mesh_t), intent(inout) :: mesh
+      type(words_t), intent(inout) :: words            !< behind the line $Elements; then behind the last element
+      type(gmsh_mesh_t), intent(inout) :: mesh         !< with its entities; gets the elements
       type(old_part_t) :: old
       integer(ip) :: n_blocks, n, i
 

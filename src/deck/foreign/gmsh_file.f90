@@ -17,20 +17,20 @@ module atrito_gmsh_file
 
    !> The file between two lines.
    type :: reading_t
-      type(words_t) :: words
-      logical :: is_new = .true.                   !< format 4.1, else 2.2
-      logical :: has_nodes = .false., has_elements = .false.
-      type(fault_t) :: off_plane                   !< where |z| is greatest
-      real(wp) :: most_z = 0.0_wp
+      type(words_t) :: words                                 !< the text, and the place in it
+      logical :: is_new = .true.                             !< format 4.1, else 2.2
+      logical :: has_nodes = .false., has_elements = .false. !< these sections have been read
+      type(fault_t) :: off_plane                             !< where |z| is greatest
+      real(wp) :: most_z = 0.0_wp                            !< greatest |z| of a node so far [L]
    end type reading_t
 
 contains
 
    !> Reads the text of a file. fault%text is not allocated when all is well.
    subroutine read_gmsh_text(text, mesh, fault)
-      character(len=*), intent(in), target :: text
-      type(gmsh_mesh_t), intent(inout) :: mesh
-      type(fault_t), intent(out) :: fault
+      character(len=*), intent(in), target :: text !< the file
+      type(gmsh_mesh_t), intent(inout) :: mesh     !< gets nodes, elements, entities and names
+      type(fault_t), intent(out) :: fault          !< the first one; text not allocated: none
       type(reading_t) :: reading
       logical :: found
 

@@ -13,35 +13,35 @@ module atrito_gmsh_mesh
    !> An entity of the drawing with the physical groups to which it belongs.
    type :: gmsh_part_t
       integer(ip) :: dim = 0                       !< 0: a point, 1: a curve, 2: a surface
-      integer(ip) :: tag = 0
+      integer(ip) :: tag = 0                       !< number of the entity in its dimension
       integer(ip), allocatable :: groups(:)        !< tags of physical groups, > 0
    end type gmsh_part_t
 
    !> The name of a physical group.
    type :: gmsh_name_t
-      integer(ip) :: dim = 0, tag = 0
-      character(len=:), allocatable :: name
+      integer(ip) :: dim = 0, tag = 0       !< of the group
+      character(len=:), allocatable :: name !< without blanks
    end type gmsh_name_t
 
    !> Where what has a key stands that is made of numbers: meshes have as many entities and groups as a drawing has.
    type :: keys_t
-      type(name_list_t) :: keys
+      type(name_list_t) :: keys                    !< as texts
       integer(ip), allocatable :: place(:)         !< of each key; the last one that was noted
    end type keys_t
 
    type :: gmsh_mesh_t
-      character(len=:), allocatable :: file        !< as the user wrote it
-      integer(ip) :: card = 0                      !< of the *INCLUDE that names it, place in the deck's cards
-      integer(ip) :: n_nodes = 0, n_elements = 0, n_parts = 0
-      integer(ip), allocatable :: node_id(:)
-      real(wp), allocatable :: x(:, :)             !< (2, n_nodes) [L]
-      integer(ip), allocatable :: element_id(:)
-      integer(ip), allocatable :: shape(:)         !< how many nodes each element has
-      integer(ip), allocatable :: part(:)          !< of each element, place in parts
-      integer(ip), allocatable :: nodes(:, :)      !< (MOST_NODES, n_elements) numbers
-      type(gmsh_part_t), allocatable :: parts(:)   !< the first n_parts are in use
-      type(gmsh_name_t), allocatable :: names(:)
-      type(keys_t) :: part_keys, name_keys         !< by dimension, tag and, where it matters, group
+      character(len=:), allocatable :: file                   !< as the user wrote it
+      integer(ip) :: card = 0                                 !< of the *INCLUDE that names it, place in the deck's cards
+      integer(ip) :: n_nodes = 0, n_elements = 0, n_parts = 0 !< in use; the arrays may be longer
+      integer(ip), allocatable :: node_id(:)                  !< (n_nodes) numbers in the file
+      real(wp), allocatable :: x(:, :)                        !< (2, n_nodes) [L]
+      integer(ip), allocatable :: element_id(:)               !< (n_elements) numbers in the file
+      integer(ip), allocatable :: shape(:)                    !< how many nodes each element has
+      integer(ip), allocatable :: part(:)                     !< of each element, place in parts
+      integer(ip), allocatable :: nodes(:, :)                 !< (MOST_NODES, n_elements) numbers
+      type(gmsh_part_t), allocatable :: parts(:)              !< the first n_parts are in use
+      type(gmsh_name_t), allocatable :: names(:)              !< of groups that have one
+      type(keys_t) :: part_keys, name_keys                    !< by dimension, tag and, where it matters, group
    end type gmsh_mesh_t
 
    !> Words of Gmsh's own Abaqus files for what has no name, by dimension.
@@ -51,8 +51,8 @@ contains
 
    !> Keeps an entity.
    subroutine add_part(mesh, dim, tag, groups)
-      type(gmsh_mesh_t), intent(inout) :: mesh
-      integer(ip), intent(in) :: dim, tag, groups(:)
+      type(gmsh_mesh_t), intent(inout) :: mesh       !< gets an entity more
+      integer(ip), intent(in) :: dim, tag, groups(:) !< as of gmsh_part_t
       type(gmsh_part_t), allocatable :: longer(:)
 
       if (.not. allocated(mesh%parts)) allocate (mesh%parts(16))
@@ -73,8 +73,8 @@ contains
 
    !> The place of an entity that was kept, with its first group where one is given; 0: none. Of several it is the last.
    pure integer(ip) function find_part(mesh, dim, tag, group) result(i)
-      type(gmsh_mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: dim, tag
+      type(gmsh_mesh_t), intent(in) :: mesh        !< its entities are searched
+      integer(ip), intent(in) :: dim, tag          !< as of gmsh_part_t
       integer(ip), intent(in), optional :: group   !< of none: 0
 
       i = place_of(mesh%part_keys, key_of(dim, tag, group))
@@ -82,8 +82,8 @@ contains
 
    !> By what a part or a name is found: its dimension and number, and its physical group.
    pure function key_of(dim, tag, group) result(key)
-      integer(ip), intent(in) :: dim, tag
-      integer(ip), intent(in), optional :: group
+      integer(ip), intent(in) :: dim, tag        !< as of gmsh_part_t
+      integer(ip), intent(in), optional :: group !< left out: a key without it
       character(len=:), allocatable :: key
 
       key = to_text(dim)//' '//to_text(tag)
@@ -92,9 +92,9 @@ contains
 
    !> Notes where in a list the thing with a key is; a later one takes the place of an earlier one.
    pure subroutine note_key(list, key, place)
-      type(keys_t), intent(inout) :: list
-      character(len=*), intent(in) :: key
-      integer(ip), intent(in) :: place
+      type(keys_t), intent(inout) :: list !< gets the key, or another place for it
+      character(len=*), intent(in) :: key !< of key_of
+      integer(ip), intent(in) :: place    !< where it is, > 0
 
       if (find_name(list%keys, key) == 0) call add_name(list%keys, key)
       call make_room(list%place, list%keys%n - 1, list%keys%n)
@@ -111,8 +111,8 @@ contains
 
    !> Keeps an element.
    subroutine add_element(mesh, id, part, nodes)
-      type(gmsh_mesh_t), intent(inout) :: mesh
-      integer(ip), intent(in) :: id, part, nodes(:)
+      type(gmsh_mesh_t), intent(inout) :: mesh      !< gets an element more; it has been trimmed before
+      integer(ip), intent(in) :: id, part, nodes(:) !< number; place of its entity; numbers of its nodes
       integer(ip) :: e
 
       e = mesh%n_elements + 1
@@ -136,8 +136,8 @@ contains
 
    !> Makes room for so many elements: at the beginning, and at the end what is there.
    subroutine trim_gmsh_mesh(mesh, n_elements)
-      type(gmsh_mesh_t), intent(inout) :: mesh
-      integer(ip), intent(in) :: n_elements
+      type(gmsh_mesh_t), intent(inout) :: mesh !< lists of elements get this length
+      integer(ip), intent(in) :: n_elements    !< >= those that there are
 
       if (.not. allocated(mesh%element_id)) then
          allocate (mesh%element_id(0), mesh%shape(0), mesh%part(0), mesh%nodes(MOST_NODES, 0))
@@ -147,7 +147,7 @@ contains
 
    !> Hands a mesh on without a copy.
    subroutine move_mesh(from, to)
-      type(gmsh_mesh_t), intent(inout) :: from, to
+      type(gmsh_mesh_t), intent(inout) :: from, to !< gives all; gets all
 
       call move_alloc(from%file, to%file)
       call move_alloc(from%node_id, to%node_id)
@@ -168,8 +168,8 @@ contains
 
    !> The name of a physical group as Gmsh's own Abaqus files have it: without blanks, and one for those that have none.
    pure function group_name(mesh, dim, tag) result(name)
-      type(gmsh_mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: dim, tag
+      type(gmsh_mesh_t), intent(in) :: mesh !< its names are read
+      integer(ip), intent(in) :: dim, tag   !< of the physical group
       character(len=:), allocatable :: name
       integer(ip) :: i
 
@@ -184,7 +184,7 @@ contains
 
    !> The name of an entity.
    pure function part_name(part) result(name)
-      type(gmsh_part_t), intent(in) :: part
+      type(gmsh_part_t), intent(in) :: part !< dimension and number are read
       character(len=:), allocatable :: name
 
       name = trim(ENTITY(part%dim))//to_text(part%tag)

@@ -11,8 +11,8 @@ module atrito_gmsh_words
    !> What is wrong with a text, and where.
    type :: fault_t
       character(len=:), allocatable :: text        !< not allocated: nothing
-      character(len=:), allocatable :: expected
-      integer(ip) :: line = 1, column = 1
+      character(len=:), allocatable :: expected    !< what should be there
+      integer(ip) :: line = 1, column = 1          !< where, from 1
       integer(ip) :: first = 1, last = 0           !< characters of the text
    end type fault_t
 
@@ -23,8 +23,8 @@ module atrito_gmsh_words
       integer(ip) :: line = 0                      !< number of the present line
       integer(ip) :: start = 1                     !< its first character
       integer(ip) :: first = 1, last = 0           !< the word taken last; last < first: there was none
-      logical :: ok = .true.
-      type(fault_t) :: fault
+      logical :: ok = .true.                       !< nothing is wrong so far
+      type(fault_t) :: fault                       !< the first one
    end type words_t
 
    character(len=1), parameter :: LINE_FEED = achar(10)
@@ -33,8 +33,8 @@ contains
 
    !> Goes to the next line that has a word, and takes that word; found is .false. at the end of the text.
    subroutine next_line(words, found)
-      type(words_t), intent(inout) :: words
-      logical, intent(out) :: found
+      type(words_t), intent(inout) :: words !< goes on to the first word of that line
+      logical, intent(out) :: found         !< there is one
       integer(ip) :: i
 
       found = .false.
@@ -56,7 +56,7 @@ contains
 
    !> The next word of the line; none: last < first.
    pure subroutine take_word(words)
-      type(words_t), intent(inout) :: words
+      type(words_t), intent(inout) :: words !< goes on behind the word
 
       call find_word(words%text, words%position, words%first, words%last)
       words%position = words%last + 1
@@ -78,9 +78,9 @@ contains
 
    !> The next word, which must be an integer.
    subroutine take_integer(words, what, value)
-      character(len=*), intent(in) :: what
-      type(words_t), intent(inout) :: words
-      integer(ip), intent(out) :: value
+      character(len=*), intent(in) :: what  !< what it is, for a message
+      type(words_t), intent(inout) :: words !< goes on behind the word; may fail
+      integer(ip), intent(out) :: value     !< 0 where there is none
       integer(lp) :: sum
       integer(ip) :: i, first
       integer :: digit
@@ -112,9 +112,9 @@ contains
 
    !> The next word, which must be a real.
    subroutine take_real(words, what, value)
-      character(len=*), intent(in) :: what
-      type(words_t), intent(inout) :: words
-      real(wp), intent(out) :: value
+      character(len=*), intent(in) :: what  !< what it is, for a message
+      type(words_t), intent(inout) :: words !< goes on behind the word; may fail
+      real(wp), intent(out) :: value        !< 0 where there is none
       integer :: outcome
 
       value = 0.0_wp
@@ -135,8 +135,8 @@ contains
 
    !> Nothing more may stand in the line.
    subroutine end_line(words, expected)
-      character(len=*), intent(in) :: expected
-      type(words_t), intent(inout) :: words
+      character(len=*), intent(in) :: expected !< what the line should be, for a message
+      type(words_t), intent(inout) :: words    !< stays in the line; may fail
       integer(ip) :: first, last
 
       if (.not. words%ok) return
@@ -150,8 +150,8 @@ contains
 
    !> Keeps what is wrong at the word taken last; only the first time counts.
    subroutine fail(words, text, expected)
-      type(words_t), intent(inout) :: words
-      character(len=*), intent(in) :: text, expected
+      type(words_t), intent(inout) :: words          !< not ok from now on
+      character(len=*), intent(in) :: text, expected !< what is wrong; what should be there
 
       words%ok = .false.
       if (allocated(words%fault%text)) return
@@ -165,8 +165,8 @@ contains
 
    !> Whether the word that was read last is this one, letter for letter.
    pure logical function word_is(words, word)
-      character(len=*), intent(in) :: word
-      type(words_t), intent(in) :: words
+      character(len=*), intent(in) :: word !< letter for letter
+      type(words_t), intent(in) :: words   !< behind a word
 
       word_is = words%last - words%first + 1 == len(word)
       if (word_is) word_is = words%text(words%first:words%last) == word
@@ -174,8 +174,8 @@ contains
 
    !> To the next line, which must be there.
    subroutine go_on(words, expected)
-      character(len=*), intent(in) :: expected
-      type(words_t), intent(inout) :: words
+      character(len=*), intent(in) :: expected !< what should follow, for a message
+      type(words_t), intent(inout) :: words    !< goes on to the next line; may fail
       logical :: found
 
       if (.not. words%ok) return
@@ -185,9 +185,9 @@ contains
 
    !> The first word of the next line as an integer.
    subroutine begin_line(words, what, value)
-      character(len=*), intent(in) :: what
-      type(words_t), intent(inout) :: words
-      integer(ip), intent(out) :: value
+      character(len=*), intent(in) :: what  !< what it is, for a message
+      type(words_t), intent(inout) :: words !< goes on to the next line; may fail
+      integer(ip), intent(out) :: value     !< 0 where there is none
 
       value = 0
       call go_on(words, what)
@@ -198,8 +198,8 @@ contains
 
    !> A count of lines that the rest of the text can hold; each of so many characters at the least.
    subroutine check_count(words, n, least)
-      type(words_t), intent(inout) :: words
-      integer(ip), intent(in) :: n, least
+      type(words_t), intent(inout) :: words !< may fail
+      integer(ip), intent(in) :: n, least   !< lines that follow; characters of each, > 0
 
       if (.not. words%ok) return
       if (n < 0) call fail(words, 'a negative number', 'a number of lines')
@@ -209,16 +209,16 @@ contains
 
    !> Fails, with a message at the word that was read last, where a number is not positive.
    subroutine check_number(words, number)
-      type(words_t), intent(inout) :: words
-      integer(ip), intent(in) :: number
+      type(words_t), intent(inout) :: words !< may fail
+      integer(ip), intent(in) :: number     !< that is to be > 0
 
       if (words%ok .and. number <= 0) call fail(words, 'this number is not positive', 'a number from 1')
    end subroutine check_number
 
    !> The head of a block of format 4.1.
    subroutine read_head(words, what, head)
-      character(len=*), intent(in) :: what
-      type(words_t), intent(inout) :: words
+      character(len=*), intent(in) :: what             !< what the last number counts, for a message
+      type(words_t), intent(inout) :: words            !< goes on over the line; may fail
       integer(ip), intent(out) :: head(4)              !< dimension, entity, kind, how many
 
       head = 0

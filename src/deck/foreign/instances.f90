@@ -17,12 +17,12 @@ module atrito_instances
    !> A part: deck%cards(first:last), *PART and *END PART not among them.
    type :: part_t
       integer(ip) :: card = 0                      !< *PART
-      integer(ip) :: first = 1, last = 0
+      integer(ip) :: first = 1, last = 0           !< cards in it
       logical :: is_taken = .false.                !< its items are those of an instance
    end type part_t
 
    type :: parts_t
-      type(name_list_t) :: names
+      type(name_list_t) :: names                   !< of parts, without case
       type(part_t), allocatable :: list(:)         !< in the order of the names
       type(name_list_t) :: instances               !< in the order of deck%scopes
       character(len=:), allocatable :: assembly    !< name of the assembly; '' without one
@@ -39,8 +39,8 @@ contains
 
    !> Puts the parts of a deck into their places. n_blocks: how many parts and instances were read.
    subroutine expand_instances(deck, n_blocks)
-      type(deck_t), intent(inout) :: deck
-      integer(ip), intent(in) :: n_blocks
+      type(deck_t), intent(inout) :: deck !< its cards are put in the order of the model
+      integer(ip), intent(in) :: n_blocks !< where it is 0 nothing is expanded
       type(parts_t) :: parts
       type(card_t), allocatable :: cards(:)
       integer(ip) :: i, n

@@ -10,13 +10,13 @@ module atrito_part_order
 
    !> What is open between two cards: a *PART or an *INSTANCE (the block), and round an *INSTANCE the assembly.
    type :: parts_t
-      integer(ip) :: n_blocks = 0                  !< so far
-      logical :: in_block = .false., in_assembly = .false.
-      logical :: is_loose = .false.                !< an *INSTANCE without an assembly has been reported
-      logical :: is_told = .false.                 !< of the block: something stands in it that cannot
-      character(len=8) :: block = ''               !< PART or INSTANCE
-      type(token_t) :: block_place, assembly_place !< the keywords that opened them
-      character(len=:), allocatable :: name        !< of the block
+      integer(ip) :: n_blocks = 0                          !< so far
+      logical :: in_block = .false., in_assembly = .false. !< between *PART, *INSTANCE or *ASSEMBLY and their ends
+      logical :: is_loose = .false.                        !< an *INSTANCE without an assembly has been reported
+      logical :: is_told = .false.                         !< of the block: something stands in it that cannot
+      character(len=8) :: block = ''                       !< PART or INSTANCE
+      type(token_t) :: block_place, assembly_place         !< the keywords that opened them
+      character(len=:), allocatable :: name                !< of the block
    end type parts_t
 
    !> What a part may hold.
@@ -29,9 +29,9 @@ contains
 
    !> Checks the place of a card and marks its block. Afterwards the block of a card that opens one is open.
    subroutine check_parts(deck, parts, card)
-      type(deck_t), intent(in) :: deck
-      type(parts_t), intent(inout) :: parts
-      type(card_t), intent(inout) :: card
+      type(deck_t), intent(in) :: deck      !< its texts, for messages
+      type(parts_t), intent(inout) :: parts !< what is open before the card; then behind it
+      type(card_t), intent(inout) :: card   !< gets its block; may be refused
 
       select case (card%name)
       case ('PART', 'INSTANCE')
@@ -68,8 +68,8 @@ contains
 
    !> At the end of the model: all is closed. What is open is reported where it was opened.
    subroutine check_open_parts(deck, parts)
-      type(deck_t), intent(in) :: deck
-      type(parts_t), intent(in) :: parts
+      type(deck_t), intent(in) :: deck   !< its texts, for messages
+      type(parts_t), intent(in) :: parts !< what is open
 
       if (parts%in_block .and. parts%is_told) then
          return                                    ! its end is missing before that

@@ -16,7 +16,7 @@ contains
    !> The first scope with nodes keeps its numbers. To those of the next ones a power of ten is added, its double and so on: the
    !> least power that is greater than any number; or, where there is no room for that, what fits.
    subroutine number_scopes(deck)
-      type(deck_t), intent(inout) :: deck
+      type(deck_t), intent(inout) :: deck !< its scopes get `shift` and `span`
       integer(ip) :: greatest(0:size(deck%scopes) - 1), order(size(deck%scopes)), i, n
       integer(lp) :: round, shift, spans(size(deck%scopes))
 

@@ -39,7 +39,7 @@ contains
 
    !> One line a keyword.
    subroutine help_overview(lines)
-      type(string_t), allocatable, intent(out) :: lines(:)
+      type(string_t), allocatable, intent(out) :: lines(:) !< for the terminal, at most 80 columns
       type(keyword_t), allocatable :: table(:)
       character(len=33), parameter :: TITLES(3) = [character(len=33) :: 'Model, before *STEP', &
                                                                                         'Step, between *STEP and *END STEP', 'Both']
@@ -62,9 +62,9 @@ contains
 
    !> The page of a keyword; found: .false. when there is none of this name, blanks and case apart.
    subroutine help_keyword(name, lines, found)
-      character(len=*), intent(in) :: name           !< with or without the asterisk
-      type(string_t), allocatable, intent(out) :: lines(:)
-      logical, intent(out) :: found
+      character(len=*), intent(in) :: name                 !< with or without the asterisk
+      type(string_t), allocatable, intent(out) :: lines(:) !< for the terminal, at most 80 columns; none where not found
+      logical, intent(out) :: found                        !< a keyword, or one of other programs
       type(keyword_t), allocatable :: table(:)
       integer :: i, first
       character(len=:), allocatable :: title, place
@@ -88,7 +88,7 @@ contains
 
    !> The manual page in Markdown.
    subroutine help_manual(lines)
-      type(string_t), allocatable, intent(out) :: lines(:)
+      type(string_t), allocatable, intent(out) :: lines(:) !< of Markdown
       type(keyword_t), allocatable :: table(:)
       integer :: i
       character(len=:), allocatable :: text

@@ -36,56 +36,56 @@ module atrito_keyword
 
    !> One of the words that an option or item can take.
    type :: choice_t
-      character(len=:), allocatable :: name
-      logical :: built = .true.
+      character(len=:), allocatable :: name      !< in capitals
+      logical :: built = .true.                  !< false where it is refused as not built yet
       logical :: own = .false.                   !< atrito's own, unknown to Abaqus and CalculiX
    end type choice_t
 
    !> One item of a data line.
    type :: item_t
-      character(len=:), allocatable :: name
-      integer :: kind = KIND_REAL
-      logical :: required = .true.
+      character(len=:), allocatable :: name      !< in messages and on the page of help
+      integer :: kind = KIND_REAL                !< KIND_*
+      logical :: required = .true.               !< false where it may be left out
       logical :: harmless = .false.              !< of another solver: a note, no effect
       logical :: is_unused = .false.             !< a number without effect, without a note
       character(len=:), allocatable :: default   !< '' : none
-      character(len=:), allocatable :: dimension
-      character(len=:), allocatable :: doc
-      type(choice_t), allocatable :: choices(:)
+      character(len=:), allocatable :: dimension !< in F and L, e.g. 'F/L^2'; '': none
+      character(len=:), allocatable :: doc       !< what it is, a few words
+      type(choice_t), allocatable :: choices(:)  !< words that it may be; size 0: no list
    end type item_t
 
    type, extends(item_t) :: option_spec_t
-      logical :: own = .false.
-      logical :: built = .true.
+      logical :: own = .false.                   !< atrito's own, unknown to Abaqus and CalculiX
+      logical :: built = .true.                  !< false where it is refused as not built yet
       character(len=:), allocatable :: needs     !< option that must be there too; '' : none
    end type option_spec_t
 
    !> One form of data line. It applies when its option is given (or has one of these values, given or by default); lines of a
    !> form with a leading word are known by it, the others by their position.
    type :: form_t
-      character(len=:), allocatable :: option    !< '' : always
-      type(string_t), allocatable :: values(:)   !< size 0: any value; absent: other options
-      logical :: absent = .false.                !< applies when the option is not given, nor another one
-      character(len=:), allocatable :: word      !< '' : none
-      integer :: min_lines = 1, max_lines = ANY_NUMBER
-      integer :: min_items = 0, max_items = 0
-      logical :: harmless = .false.              !< lines of another solver: a note, not read
-      logical :: goes_on = .false.               !< a line with too few items goes on in the next
-      character(len=:), allocatable :: doc
-      type(item_t), allocatable :: items(:)
+      character(len=:), allocatable :: option          !< '' : always
+      type(string_t), allocatable :: values(:)         !< size 0: any value; absent: other options
+      logical :: absent = .false.                      !< applies when the option is not given, nor another one
+      character(len=:), allocatable :: word            !< '' : none
+      integer :: min_lines = 1, max_lines = ANY_NUMBER !< lines of this form that a card has
+      integer :: min_items = 0, max_items = 0          !< items that a line has; ANY_NUMBER: the last ones repeat
+      logical :: harmless = .false.                    !< lines of another solver: a note, not read
+      logical :: goes_on = .false.                     !< a line with too few items goes on in the next
+      character(len=:), allocatable :: doc             !< what the lines are for
+      type(item_t), allocatable :: items(:)            !< in their order; the last one may repeat
    end type form_t
 
    type :: keyword_t
-      character(len=:), allocatable :: name
-      integer :: level = LEVEL_MODEL
-      logical :: own = .false.
-      character(len=:), allocatable :: parent    !< keyword to whose block it belongs; '' : none
-      character(len=:), allocatable :: summary   !< one line
-      character(len=:), allocatable :: doc       !< further sentences; may be ''
-      integer :: line = 0                        !< of its head among those of all definitions
+      character(len=:), allocatable :: name          !< in capitals, with its blanks
+      integer :: level = LEVEL_MODEL                 !< LEVEL_*: where it may stand
+      logical :: own = .false.                       !< atrito's own, unknown to Abaqus and CalculiX
+      character(len=:), allocatable :: parent        !< keyword to whose block it belongs; '' : none
+      character(len=:), allocatable :: summary       !< one line
+      character(len=:), allocatable :: doc           !< further sentences; may be ''
+      integer :: line = 0                            !< of its head among those of all definitions
       type(option_spec_t), allocatable :: options(:) !< these three only once they have been asked for (define_keyword)
-      type(form_t), allocatable :: forms(:)      !< size 0: no data lines
-      type(string_t), allocatable :: example(:)
+      type(form_t), allocatable :: forms(:)          !< size 0: no data lines
+      type(string_t), allocatable :: example(:)      !< lines of a deck
    end type keyword_t
 
 end module atrito_keyword

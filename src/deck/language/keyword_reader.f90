@@ -33,7 +33,7 @@ contains
    !> The keywords that some lines define, in their order.
    pure subroutine read_keywords(lines, table, wrong)
       type(string_t), intent(in) :: lines(:)                    !< those that go on joined
-      type(keyword_t), allocatable, intent(out) :: table(:)
+      type(keyword_t), allocatable, intent(out) :: table(:)     !< in the order of the lines, all defined
       character(len=:), allocatable, intent(out) :: wrong       !< the last line that cannot be read; not allocated: there is none
       integer :: i
 
@@ -46,7 +46,7 @@ contains
    !> The same by their heads alone.
    pure subroutine read_heads(lines, table, wrong)
       type(string_t), intent(in) :: lines(:)                    !< those that go on joined
-      type(keyword_t), allocatable, intent(out) :: table(:)
+      type(keyword_t), allocatable, intent(out) :: table(:)     !< in the order of the lines; heads alone
       character(len=:), allocatable, intent(out) :: wrong       !< the last line that cannot be read; not allocated: there is none
       integer :: i, n
       character(len=:), allocatable :: name, level
@@ -78,8 +78,8 @@ contains
 
    !> Reads what stands behind the head of a keyword, unless it has been read: a deck has a few of a hundred keywords.
    pure subroutine define_keyword(lines, keyword, wrong)
-      type(string_t), intent(in) :: lines(:)
-      type(keyword_t), intent(inout) :: keyword
+      type(string_t), intent(in) :: lines(:)                          !< as of read_heads
+      type(keyword_t), intent(inout) :: keyword                       !< of read_heads; gets options, forms and example
       character(len=:), allocatable, intent(inout), optional :: wrong !< as of read_heads
       character(len=:), allocatable :: fault
       type(string_list_t) :: unfolded

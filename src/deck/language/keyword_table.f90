@@ -23,8 +23,8 @@ contains
 
    !> Its lines, and the keywords by their heads alone.
    subroutine take_table(lines, table)
-      type(string_t), allocatable, intent(out) :: lines(:)
-      type(keyword_t), allocatable, intent(out) :: table(:)
+      type(string_t), allocatable, intent(out) :: lines(:)  !< for define_keyword
+      type(keyword_t), allocatable, intent(out) :: table(:) !< in the order of the manual
       character(len=:), allocatable :: wrong
 
       call take_keyword_lines(lines)
@@ -33,7 +33,7 @@ contains
 
    !> A keyword without its blanks and in capitals: they do not matter (`*ENDSTEP`).
    pure function packed(name) result(word)
-      character(len=*), intent(in) :: name
+      character(len=*), intent(in) :: name !< in any case, with any blanks
       character(len=:), allocatable :: word
       character(len=len(name)) :: capitals
       integer :: i, n
@@ -67,8 +67,8 @@ contains
 
    !> Index of a keyword, 0 when it is unknown.
    pure integer function find_keyword(table, name) result(i)
-      type(keyword_t), intent(in) :: table(:)
-      character(len=*), intent(in) :: name
+      type(keyword_t), intent(in) :: table(:) !< the keyword table
+      character(len=*), intent(in) :: name    !< in any case, with any blanks
       character(len=:), allocatable :: word
 
       word = packed(name)
@@ -81,8 +81,8 @@ contains
 
    !> Index of an option of a keyword, 0 when it is unknown.
    pure integer function find_option_spec(keyword, name) result(i)
-      type(keyword_t), intent(in) :: keyword
-      character(len=*), intent(in) :: name
+      type(keyword_t), intent(in) :: keyword !< defined
+      character(len=*), intent(in) :: name   !< in any case, with any blanks
       character(len=:), allocatable :: word
 
       word = packed(name)
@@ -93,8 +93,8 @@ contains
 
    !> Index of a word among choices, 0 when it is none of them.
    pure integer function find_choice(choices, word) result(i)
-      type(choice_t), intent(in) :: choices(:)
-      character(len=*), intent(in) :: word
+      type(choice_t), intent(in) :: choices(:) !< of an option or an item
+      character(len=*), intent(in) :: word     !< in any case, with any blanks
       character(len=:), allocatable :: wanted
 
       wanted = packed(word)
@@ -105,7 +105,7 @@ contains
 
    !> The names of all keywords, for the nearest names in messages.
    pure function keyword_names(table) result(names)
-      type(keyword_t), intent(in) :: table(:)
+      type(keyword_t), intent(in) :: table(:) !< the keyword table
       type(string_t), allocatable :: names(:)
       integer :: i
 
@@ -117,7 +117,7 @@ contains
 
    !> The names of the options of a keyword that have an effect, for messages.
    pure function option_names(options) result(names)
-      type(option_spec_t), intent(in) :: options(:)
+      type(option_spec_t), intent(in) :: options(:) !< of one keyword, defined
       type(string_t), allocatable :: names(:)
       integer :: i
 
@@ -129,7 +129,7 @@ contains
 
    !> The words that an option may have in this version, for messages.
    pure function choice_names(choices) result(names)
-      type(choice_t), intent(in) :: choices(:)
+      type(choice_t), intent(in) :: choices(:) !< of an option or an item
       type(string_t), allocatable :: names(:)
       integer :: i
 

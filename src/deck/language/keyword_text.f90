@@ -20,8 +20,8 @@ contains
 
    !> The items of a data line: `id, x [L], y [L]`; without dimensions and what may be left out: `id, x, y`.
    pure function form_text(form, names_only) result(text)
-      type(form_t), intent(in) :: form
-      logical, intent(in), optional :: names_only
+      type(form_t), intent(in) :: form            !< of a data line
+      logical, intent(in), optional :: names_only !< without dimensions; left out: with them
       character(len=:), allocatable :: text
       logical :: short
       integer :: i
@@ -46,7 +46,7 @@ contains
 
    !> What an item is: `x: coordinate, a real [L]`.
    pure function item_text(item) result(text)
-      type(item_t), intent(in) :: item
+      type(item_t), intent(in) :: item !< of a data line
       character(len=:), allocatable :: text
 
       text = item%name//': '//item%doc//', '//with_dimension(trim(WORDS(item%kind)), item%dimension)
@@ -54,7 +54,7 @@ contains
 
    !> The meaning of an item for the reference: kind, dimension, choices, default.
    pure function item_meaning(item) result(text)
-      type(item_t), intent(in) :: item
+      type(item_t), intent(in) :: item !< of a data line
       character(len=:), allocatable :: text
 
       text = item%doc
@@ -72,7 +72,7 @@ contains
 
    !> How an option is written: `NAME=name`.
    pure function option_text_of(option) result(text)
-      type(option_spec_t), intent(in) :: option
+      type(option_spec_t), intent(in) :: option !< of a keyword
       character(len=:), allocatable :: text
 
       text = option%name//trim(VALUES(option%kind))
@@ -81,7 +81,7 @@ contains
 
    !> The words that can be chosen, those not built marked.
    pure function choices_text(choices) result(text)
-      type(choice_t), intent(in) :: choices(:)
+      type(choice_t), intent(in) :: choices(:) !< of an option or an item
       character(len=:), allocatable :: text
       integer :: i
 
@@ -96,7 +96,7 @@ contains
 
    !> How many lines of a form there may be.
    pure function lines_text(form) result(text)
-      type(form_t), intent(in) :: form
+      type(form_t), intent(in) :: form !< of a data line
       character(len=:), allocatable :: text
 
       associate (least => form%min_lines, most => form%max_lines)
@@ -116,7 +116,7 @@ contains
 
    !> When a form applies: `with TYPE=ELEMENT`, `without NONLOCAL`; '' when always.
    pure function condition_text(form) result(text)
-      type(form_t), intent(in) :: form
+      type(form_t), intent(in) :: form !< of a data line
       character(len=:), allocatable :: text
       integer :: i
 
@@ -133,7 +133,7 @@ contains
 
    !> A text with its dimension behind it: `x [L]`; the text alone where there is none.
    pure function with_dimension(text, dimension) result(both)
-      character(len=*), intent(in) :: text, dimension
+      character(len=*), intent(in) :: text, dimension !< name or meaning; in F and L, '': none
       character(len=:), allocatable :: both
 
       both = text

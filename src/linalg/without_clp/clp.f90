@@ -9,9 +9,9 @@ contains
 
    !> solution%status: LP_NOT_AVAILABLE.
    subroutine solve_linear_program(program, method, solution)
-      type(linear_program_t), intent(in) :: program
-      integer, intent(in) :: method
-      type(linear_solution_t), intent(out) :: solution
+      type(linear_program_t), intent(in) :: program    !< not looked at
+      integer, intent(in) :: method                    !< not looked at
+      type(linear_solution_t), intent(out) :: solution !< status alone: LP_NOT_AVAILABLE
 
    end subroutine solve_linear_program
 

@@ -9,11 +9,11 @@ contains
 
    !> done: .false.
    subroutine halve_graph(first, neighbour, vertex_weight, edge_weight, n_levels, imbalance, part, done)
-      integer(ip), intent(in) :: first(:), neighbour(:), edge_weight(:), vertex_weight(:)
-      integer, intent(in) :: n_levels
-      integer(ip), intent(in) :: imbalance
-      integer(ip), intent(out) :: part(:)
-      logical, intent(out) :: done
+      integer(ip), intent(in) :: first(:), neighbour(:), edge_weight(:), vertex_weight(:) !< not looked at
+      integer, intent(in) :: n_levels      !< not looked at
+      integer(ip), intent(in) :: imbalance !< not looked at
+      integer(ip), intent(out) :: part(:)  !< zeros
+      logical, intent(out) :: done         !< false
 
       part = 0
       done = .false.
