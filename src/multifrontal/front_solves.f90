@@ -22,7 +22,7 @@ module atrito_front_solves
    use atrito_kinds, only: ip, lp, wp
    implicit none (type, external)
    private
-   public :: forward, backward
+   public :: forward, backward, solve_on_way
 
    !> The vectors on borders that wait for other supernodes, the last one on top.
    type :: stack_t
@@ -180,6 +180,32 @@ contains
          k = k + 2 + m
       end do
    end subroutine backward_supernode
+
+   !> x <- (L L')^-1 x on a way through the tree, of a load that is there alone: supernodes with all those above them. Numbers below 0
+   !> stand for children of these that are not of the way: they leave nothing, and what is found above them is of no use there.
+   subroutine solve_on_way(fronts, way, x)
+      type(fronts_t), intent(in) :: fronts
+      integer(ip), intent(in) :: way(:)          !< supernodes in their order
+      real(wp), intent(inout) :: x(:)            !< (n) by positions
+      type(stack_t) :: stack
+      integer(ip) :: i, m
+
+      do i = 1, size(way, kind=ip)
+         associate (c => fronts%class_of(abs(way(i))))
+            m = fronts%record(fronts%start(c) + 2)
+            if (way(i) < 0) call push(stack, spread(0.0_wp, 1, m))
+            if (way(i) > 0) call forward_supernode(fronts, way(i), fronts%factors(c)%order, fronts%factors(c)%n_pivots, &
+                                                   fronts%shares_solves, x, stack)
+         end associate
+      end do
+      do i = size(way, kind=ip), 1, -1
+         associate (c => fronts%class_of(abs(way(i))))
+            if (way(i) < 0) stack%top = stack%top - fronts%record(fronts%start(c) + 2)
+            if (way(i) > 0) call backward_supernode(fronts, way(i), fronts%factors(c)%order, fronts%factors(c)%n_pivots, &
+                                                    fronts%shares_solves, x, stack)
+         end associate
+      end do
+   end subroutine solve_on_way
 
    !> Puts a vector on the stack.
    pure subroutine push(stack, entries)

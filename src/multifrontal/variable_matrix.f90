@@ -16,14 +16,14 @@ module atrito_variable_matrix
    use atrito_front_factors, only: fronts_t, front_bytes_t, plan_fronts, factor_class, count_class, held_bytes, tell_of_memory, &
                                    REAL_BYTES, CHUNK_BYTES
    use atrito_front_records, only: HEADER
-   use atrito_front_solves, only: forward, backward
+   use atrito_front_solves, only: forward, backward, solve_on_way
    use atrito_kinds, only: ip, lp, wp
    use atrito_status, only: status_t, set_status, STATUS_SINGULAR
    implicit none (type, external)
    private
    public :: variable_matrix_t, create_variable_matrix, set_variable_element, factor_variable_matrix, solve_variable_matrix, &
-             kept_values, reduce_variable, expand_variable, add_fixed_product, fixed_diagonal, variable_matrix_bytes, &
-             expect_variable_factors
+             solve_at_variable, kept_values, reduce_variable, expand_variable, add_fixed_product, fixed_diagonal, &
+             variable_matrix_bytes, expect_variable_factors
 
    type :: variable_matrix_t
       integer(ip) :: n = 0                             !< equations
@@ -37,6 +37,8 @@ module atrito_variable_matrix
       integer(ip), private :: first_matrix = 0         !< that of variable element v is first_matrix + v
       integer(ip), allocatable, private :: class_of(:) !< (variable elements) front that it is assembled in; 0: none
       logical, allocatable, private :: is_due(:)       !< (classes)
+      integer(ip), allocatable, private :: way(:)  !< supernodes that vary, and less their children that do not (solve_on_way)
+      integer(ip), allocatable, private :: reached(:) !< equations of the variable elements
       real(wp), allocatable, private :: front(:)       !< where fronts are assembled
    end type variable_matrix_t
 
@@ -117,6 +119,7 @@ contains
       integer(ip) :: c, i, m
       integer(lp) :: k
 
+      varies = .true.                              ! the root, where nothing is kept, is no front and joins the trees
       do c = 1, matrix%n_fronts
          children = children_of(matrix%fronts, c)
          varies(c) = any(varies(children))
@@ -137,7 +140,46 @@ contains
             matrix%fronts%waiting(children(i)) = FOR_EVER
          end do
       end do
+      call find_way(matrix, varies)
    end subroutine find_variable_fronts
+
+   !> The supernodes that vary and their children, and the equations of the variable elements.
+   !>
+   !> From the root down: parents wait on a stack, once for each child, as in atrito_front_solves.
+   subroutine find_way(matrix, varies)
+      type(variable_matrix_t), intent(inout) :: matrix
+      logical, intent(in) :: varies(:)             !< (classes)
+      integer(ip) :: way(matrix%fronts%n_supernodes), p, first
+      logical :: waits(matrix%fronts%n_supernodes + 1), of_way
+      logical :: is_reached(matrix%n)
+      integer(ip) :: top, i
+
+      first = size(way, kind=ip) + 1
+      top = 0
+      do p = size(way, kind=ip), 1, -1
+         associate (c => matrix%fronts%class_of(p))
+            of_way = varies(c)
+            if (top > 0) of_way = waits(top)
+            top = max(top - 1, 0)
+            if (of_way) then
+               first = first - 1
+               way(first) = merge(p, -p, varies(c))
+            end if
+            do i = 1, matrix%fronts%record(matrix%fronts%start(c) + 3)
+               top = top + 1
+               waits(top) = varies(c)
+            end do
+         end associate
+      end do
+      matrix%way = way(first:)
+      is_reached = .false.
+      associate (store => matrix%store)
+         do i = int(store%start(matrix%n_fixed + 1), ip) + 1, int(store%start(store%n + 1), ip)
+            if (store%equations(i) > 0) is_reached(store%equations(i)) = .true.
+         end do
+      end associate
+      matrix%reached = pack([(i, i=1, matrix%n)], is_reached)
+   end subroutine find_way
 
    !> The next factorisation takes this matrix for a variable element.
    subroutine set_variable_element(matrix, v, values)
@@ -208,6 +250,22 @@ contains
       call reduce_variable(matrix, x)
       call expand_variable(matrix, x)
    end subroutine solve_variable_matrix
+
+   !> x <- A^-1 x at the equations of the variable elements, of a load at these alone; x elsewhere stays.
+   !>
+   !> Only the fronts on the ways from these elements to the root take part, those that a change of all of them would factor anew.
+   subroutine solve_at_variable(matrix, x)
+      type(variable_matrix_t), intent(in) :: matrix
+      real(wp), intent(inout) :: x(:)              !< (n)
+      real(wp) :: by_position(matrix%n)
+
+      by_position = 0.0_wp
+      associate (at => matrix%elimination%position(matrix%reached))
+         by_position(at) = x(matrix%reached)
+         call solve_on_way(matrix%fronts, matrix%way, by_position)
+         x(matrix%reached) = by_position(at)
+      end associate
+   end subroutine solve_at_variable
 
    !> What the last factorisation leaves of the matrix at the kept unknowns, their Schur complement: the lower triangle by columns,
    !> where the matrix has it. Whoever changes it puts it back. Not associated where nothing is kept.

@@ -16,8 +16,8 @@ module atrito_assembled_scene
    use atrito_kinds, only: ip, lp, wp
    use atrito_multifrontal, only: elimination_t, element_store_t, add_to_store, sum_diagonals, take_own_matrices, front_bytes_t, &
                                   variable_matrix_t, create_variable_matrix, set_variable_element, factor_variable_matrix, &
-                                  solve_variable_matrix, add_fixed_product, fixed_diagonal, expect_variable_factors, &
-                                  variable_matrix_bytes
+                                  solve_variable_matrix, solve_at_variable, add_fixed_product, fixed_diagonal, &
+                                  expect_variable_factors, variable_matrix_bytes
    use atrito_row_entries, only: build_constraint_rows
    use atrito_scene_elimination, only: scene_numbering_t, number_scene, eliminate_scene
    use atrito_scene_system, only: scene_system_t, set_scene_gaps, set_flexibility
@@ -39,6 +39,7 @@ module atrito_assembled_scene
       procedure :: multiply => multiply_scene
       procedure :: factor => factor_scene
       procedure :: solve => solve_scene
+      procedure :: solve_at_rows => solve_scene_at_rows
       procedure :: memory_bytes => scene_bytes
       procedure :: solving_bytes
    end type assembled_scene_t
@@ -295,6 +296,14 @@ contains
 
       call solve_variable_matrix(self%matrix, x)
    end subroutine solve_scene
+
+   !> The same at the unknowns of the rows and the amplitudes, of a load at these alone: by the fronts above the points.
+   subroutine solve_scene_at_rows(self, x)
+      class(assembled_scene_t), intent(in) :: self
+      real(wp), intent(inout) :: x(:)
+
+      call solve_at_variable(self%matrix, x)
+   end subroutine solve_scene_at_rows
 
    !> Memory held: the matrix with its factors, the rows and the lists of the elements that change.
    pure integer(lp) function scene_bytes(self) result(bytes)

@@ -35,10 +35,11 @@ module atrito_contact_fronts
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_sparse_rows, only: multiply_rows
    use atrito_contact_line, only: contact_line_t, set_friction_bounds
-   use atrito_contact_solution, only: contact_solution_t, bound_of_state, relative_residual
+   use atrito_contact_solution, only: contact_solution_t, bound_of_state
    use atrito_contact_system, only: contact_system_t
+   use atrito_held_states, only: held_states_t, hold_states, agree, take_agreed
    use atrito_kinds, only: ip, wp
-   use atrito_multiplier_step, only: residual_of, provide_factor, rho_of, largest_of_pairs
+   use atrito_multiplier_step, only: residual_of, provide_factor, largest_of_pairs, set_held_forces
    use atrito_multipliers, only: multiplier_t
    use atrito_solve_history, only: solve_history_t, record_solve
    use atrito_status, only: status_t, is_ok, STATUS_SINGULAR
@@ -57,12 +58,12 @@ module atrito_contact_fronts
    integer(ip), parameter :: MANY_POINTS = 100_ip  !< for which it is worth it
    integer(ip), parameter :: MOST_SOLVES = 60_ip
    integer(ip), parameter :: MOST_IN_VAIN = 10_ip  !< of them, since fewer points changed than in each of the three before
+   real(wp), parameter :: LOOSE = 1.0e-3_wp
    integer(ip), parameter :: TO_AND_FRO = 3_ip
    integer(ip), parameter :: SPACING = 5_ip
    real(wp), parameter :: NEAR = 0.05_wp           !< of the points may still change in a start
    integer(ip), parameter :: LOOKS_AHEAD = 8_ip    !< points that do not change, before those that do are looked for no more
    real(wp), parameter :: FEW_CHANGES = 0.1_wp     !< of the points: the friction bound may follow
-   real(wp), parameter :: BOUND_FOUND = 1.0e-3_wp  !< distance of the bound from that of the pressures, relative
    real(wp), parameter :: NO_EXCESS = 1.0e-10_wp   !< of the largest force of the pair
 
 contains
@@ -76,10 +77,11 @@ contains
 
    !> States, friction bound, forces and displacements near a solution. found: whether the states came to rest, or nearly; else all
    !> is as it was, as it is where a matrix of states that were tried is singular. status: that of system%factor but for that.
-   subroutine find_fronts(system, shape, line, multipliers, solution, found, status)
+   subroutine find_fronts(system, shape, line, tolerance, multipliers, solution, found, status)
       class(contact_system_t), intent(inout) :: system !< A, B, loads, flexibilities
       type(bound_qp_t), intent(in) :: shape   !< numbers of unknowns and weights
       type(contact_line_t), intent(in) :: line !< points, laws, average S_rho
+      real(wp), intent(in) :: tolerance
       type(multiplier_t), intent(inout) :: multipliers !< x, e, q_o, a_o and the sizes of the step
       type(contact_solution_t), intent(inout) :: solution !< states, bound tau; what is found
       logical, intent(out) :: found
@@ -90,7 +92,8 @@ contains
       real(wp) :: beyond(system%rows%n, AT_LOWER:AT_UPPER)
       integer(ip) :: solves, changes, last(3), since ! changes of the last solves; solves since there were fewer
       real(wp) :: noise(system%rows%n)
-      logical :: follows
+      logical :: follows, agrees
+      type(held_states_t) :: held
 
       begun = place_of(multipliers, solution)
       found = .false.
@@ -110,18 +113,32 @@ contains
             exit
          end if
          call record_solve(solution%history, shape, solution%bounds, solution%state)
-         if (follows) solution%tau = bound_of_state(line, solution)
-         call set_friction_bounds(line, shape, solution%tau, solution%bounds, solution%state)
+         agrees = .false.
+         if (follows) call hold_states(system, multipliers, solution, held)
+         if (follows) call agree(system, shape, line, multipliers, LOOSE, held, agrees)
+         if (agrees) then
+            call take_agreed(shape, line, held, multipliers, solution)
+         else
+            multipliers%a_old = multipliers%x(system%n - system%k + 1:)
+            if (follows) solution%tau = bound_of_state(line, solution)
+            call set_friction_bounds(line, shape, solution%tau, solution%bounds, solution%state)
+         end if
          ! the proximal terms stand at what is found
          multipliers%q_old = min(max(solution%state%q, solution%bounds%lower), solution%bounds%upper)
-         multipliers%a_old = multipliers%x(system%n - system%k + 1:)
          raw = states_of_law(system, shape, solution%bounds, multipliers, solution%state, before)
          changes = count(raw /= before, kind=ip)
          if (changes < best%changes) then
             best = place_of(multipliers, solution)
             best%changes = changes
          end if
-         found = changes == 0 .and. relative_residual(line, solution%tau, bound_of_state(line, solution)) <= BOUND_FOUND
+         found = changes == 0 .and. follows
+         if (found .and. agrees) then
+            call agree(system, shape, line, multipliers, tolerance, held, agrees)
+            call take_agreed(shape, line, held, multipliers, solution)
+            raw = states_of_law(system, shape, solution%bounds, multipliers, solution%state, before)
+            changes = count(raw /= before, kind=ip)
+            found = changes == 0
+         end if
          follows = changes <= FEW_CHANGES*line%n
          solution%state%state = raw
          beyond(:, AT_LOWER) = solution%bounds%lower - solution%state%q
@@ -183,7 +200,7 @@ contains
       type(status_t), intent(out) :: status
       real(wp) :: dx(system%n), de(system%rows%n)
 
-      call set_forces_of_states()
+      call set_held_forces(system, bounds, multipliers, state)
       call residual_of(system, multipliers, state%q, dx)
       call provide_factor(system, bounds, state, multipliers, status)
       if (.not. is_ok(status)) return
@@ -192,20 +209,7 @@ contains
       multipliers%x = multipliers%x + dx
       call multiply_rows(system%rows, dx, de)
       multipliers%e = multipliers%e + de
-      call set_forces_of_states()
-      state%a = multipliers%x(system%n - system%k + 1:)
-
-   contains
-
-      subroutine set_forces_of_states()
-         associate (rho => rho_of(system, multipliers))
-            where (state%state == FREE) state%q = (multipliers%e + rho*multipliers%q_old)/(bounds%d + rho)
-         end associate
-         where (state%state == AT_LOWER) state%q = bounds%lower
-         where (state%state == AT_UPPER) state%q = bounds%upper
-         where (state%state == FROZEN) state%q = 0.0_wp
-         state%r = multipliers%e - bounds%d*state%q
-      end subroutine set_forces_of_states
+      call set_held_forces(system, bounds, multipliers, state)
 
    end subroutine solve_with_states
 

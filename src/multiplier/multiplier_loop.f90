@@ -43,6 +43,7 @@ module atrito_multiplier_loop
    use atrito_contact_solution, only: contact_solution_t, asks_no_force, let_rest, FREE_MOTION, bound_of_state
    use atrito_contact_system, only: contact_system_t
    use atrito_controls, only: controls_t
+   use atrito_held_states, only: held_states_t, hold_states, agree, take_agreed
    use atrito_multipliers, only: multiplier_t
    use atrito_undetermined_motions, only: settle_undetermined_motions
    use atrito_kinds, only: ip, wp, HUGE_REAL
@@ -95,9 +96,10 @@ contains
       type(multiplier_t) :: multipliers
       type(loop_t) :: loop
       type(anderson_t) :: anderson
-      real(wp) :: tau(line%n), image(line%n), begun(system%rows%n), of_body(system%n_bodies)
+      real(wp) :: tau(line%n), image(line%n), of_body(system%n_bodies)
       integer(ip) :: outer
-      logical :: found
+      logical :: found, holds
+      type(held_states_t) :: held
 
       before = solution
       call begin_solution(system, line, shape, multipliers, solution)
@@ -113,20 +115,22 @@ contains
          call close_all(solution%bounds, solution%state)
       end if
       found = .false.
-      if (has_many_points(line)) call start_at_fronts(system, shape, line, reporter, multipliers, solution, found, status)
+      if (has_many_points(line)) call start_at_fronts(system, shape, line, controls%tolerance, reporter, multipliers, solution, &
+                                                      found, status)
       if (.not. (found .or. has_multipliers(before))) then
          call start_closed(system, solution%bounds, multipliers, solution%state, status)
       end if
       if (.not. is_ok(status)) return
       tau = solution%tau
-      if (has_many_points(line)) anderson%least = -HUGE_REAL
+      holds = found
       outer = 0
       do
          outer = outer + 1
          call begin_outer(solution%history)
          solution%tau = tau
          call set_friction_bounds(line, shape, solution%tau, solution%bounds, solution%state)
-         call take_multiplier_step(system, shape, solution%bounds, multipliers, solution%state, solution%history, status)
+         call take_multiplier_step(system, shape, solution%bounds, holds, multipliers, solution%state, &
+                                   solution%history, status)
          solution%factorisations = multipliers%factorisations
          if (.not. is_ok(status)) return
          x = multipliers%x
@@ -145,12 +149,19 @@ contains
             call set_status(status, STATUS_SINGULAR, FREE_MOTION)
             return
          end if
-         begun = multipliers%q_old
-         call follow_drift(system, solution%bounds, multipliers, loop, solution%state)
-         ! the step is taken over: q_o, a_o, how far the next one may go, and its friction bound
-         call accept_step(system, solution%state, multipliers)
-         call choose_steps(outer, solution%state, multipliers, loop)
-         call next_start(has_many_points(line), solution%bounds, begun, image, loop, anderson, multipliers, tau)
+         holds = has_many_points(line) .and. .not. multipliers%changed .and. all(tau < HUGE_REAL)
+         if (holds) call hold_states(system, multipliers, solution, held)
+         if (holds) call agree(system, shape, line, multipliers, controls%tolerance, held, holds)
+         if (holds) then
+            call take_agreed(shape, line, held, multipliers, solution)
+            tau = solution%tau
+         else
+            call follow_drift(system, solution%bounds, multipliers, loop, solution%state)
+            ! the step is taken over: q_o, a_o, how far the next one may go, and its friction bound
+            call accept_step(system, solution%state, multipliers)
+            call choose_steps(outer, solution%state, multipliers, loop)
+            call next_start(image, loop, anderson, tau)
+         end if
       end do
       if (solution%converged) then
          call measure_bodies(system, solution%state%q, of_body)
@@ -183,10 +194,11 @@ contains
    !> points moves about as far as others are strained, not to the next block, and the next solve tells which of them stick. What
    !> many rows hold does not feel it; a pull by all of them would keep fronts from their places. Then it is a tenth of the usual
    !> one: what is left of it adds up along a stack.
-   subroutine start_at_fronts(system, shape, line, reporter, multipliers, solution, found, status)
+   subroutine start_at_fronts(system, shape, line, tolerance, reporter, multipliers, solution, found, status)
       class(contact_system_t), intent(inout) :: system
       type(bound_qp_t), intent(in) :: shape
       type(contact_line_t), intent(in) :: line
+      real(wp), intent(in) :: tolerance
       type(reporter_t), intent(in) :: reporter
       type(multiplier_t), intent(inout) :: multipliers
       type(contact_solution_t), intent(inout) :: solution
@@ -197,7 +209,7 @@ contains
       kappa = multipliers%kappa
       multipliers%kappa = max(USUAL_KAPPA, PULL_OF_ROW*system%n_bodies/system%rows%n)
       call begin_outer(solution%history)
-      call find_fronts(system, shape, line, multipliers, solution, found, status)
+      call find_fronts(system, shape, line, tolerance, multipliers, solution, found, status)
       call end_outer(solution%history, 1.0_wp)
       multipliers%kappa = merge(0.1_wp*USUAL_KAPPA, kappa, found)
       if (is_ok(status)) call report_step(reporter, 'fronts', 0_ip, solution%history, &

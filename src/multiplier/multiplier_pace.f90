@@ -36,7 +36,6 @@ module atrito_multiplier_pace
       real(wp) :: change = 0.0_wp                !< of the forces in the last step, relative as in distance
       logical :: is_firm = .false.               !< the pull was made usual again
       logical :: slow = .false.                  !< states went on changing: smaller steps
-      real(wp), allocatable :: unit(:)           !< (m + points) of forces and bounds that are mixed
       real(wp), allocatable :: share(:)          !< (points) of the way to Picard's bound that the next one goes
       real(wp), allocatable :: off(:)            !< (points) Picard's bound less the last one [F/L^2]
    end type loop_t
@@ -167,38 +166,18 @@ contains
       solution%converged = .false.
    end subroutine pull_firmly_again
 
-   !> Where the next step starts from, forces and friction bound: what the last one has found as long as states change, then
-   !> Anderson's mixing of both, the bound within a range of Picard's.
+   !> The friction bound of the next step: Picard's as long as states change, then Anderson's mixing, within a range of Picard's.
    !>
-   !> While states change the map is another one each time, and differences tell nothing: the memory is empty. Then forces and bound
-   !> are one fixed point of one map, and are mixed as one vector; each pair is measured by its own forces: a soft layer of 1,600
-   !> points on one 50 times as stiff takes 21 steps so, and 33 with the bound alone (tests/verify/long-lines). With few points the
-   !> bound alone is mixed: digits that a matrix of stiff and soft bodies lacks in the forces are not carried on.
-   subroutine next_start(with_forces, bounds, begun, image, loop, anderson, multipliers, tau)
-      logical, intent(in) :: with_forces         !< they are mixed, too
-      type(box_bounds_t), intent(in) :: bounds   !< of the last step
-      real(wp), intent(in) :: begun(:)           !< (m) forces that the last step started from [F]
-      real(wp), intent(in) :: image(:)           !< (points) nu S_rho of the pressures that it found [F/L^2]
+   !> While states change the map is another one each time, and differences tell nothing: the memory is empty.
+   subroutine next_start(image, loop, anderson, tau)
+      real(wp), intent(in) :: image(:)           !< (points) nu S_rho of the pressures that the last step found [F/L^2]
       type(loop_t), intent(inout) :: loop !< what the loop remembers
       type(anderson_t), intent(inout) :: anderson
-      type(multiplier_t), intent(inout) :: multipliers !< q_old: what it found
       real(wp), intent(inout) :: tau(:)          !< its bound; on return that of the next step
-      real(wp) :: mixed(size(begun) + size(tau))
+      real(wp) :: mixed(size(tau))
 
       if (loop%standing >= merge(SLOW_STANDS, 1_ip, loop%slow) .and. all(tau < HUGE_REAL)) then
-         if (.not. with_forces) then
-            call mix_bound()
-            return
-         end if
-         if (.not. allocated(anderson%last_x)) loop%unit = unit_of_each()
-         call anderson%update([begun, tau]/loop%unit, [multipliers%q_old, image]/loop%unit, mixed)
-         mixed = loop%unit*mixed
-         associate (m => size(begun))
-            where (multipliers%q_old > bounds%lower .and. multipliers%q_old < bounds%upper)
-               multipliers%q_old = min(max(mixed(:m), bounds%lower), bounds%upper)
-            end where
-            tau = min(max(mixed(m + 1:), image/MOST_MIXING), MOST_MIXING*image)
-         end associate
+         call mix_bound()
          return
       end if
       call anderson%reset()
@@ -216,21 +195,10 @@ contains
             call anderson%reset()
             tau = image
          else
-            call anderson%update(tau, image, mixed(:size(tau)))
-            tau = min(max(mixed(:size(tau)), image/MOST_MIXING), MOST_MIXING*image)
+            call anderson%update(tau, image, mixed)
+            tau = min(max(mixed, image/MOST_MIXING), MOST_MIXING*image)
          end if
       end subroutine mix_bound
-
-      !> The largest force of the pair of each row, and the largest bound for all points.
-      function unit_of_each() result(unit)
-         real(wp) :: unit(size(mixed))
-
-         associate (largest => largest_of_pairs(multipliers, abs(multipliers%q_old)))
-            unit(:size(begun)) = largest(multipliers%pair)
-         end associate
-         unit(size(begun) + 1:) = maxval([image, 0.0_wp])
-         where (unit <= 0.0_wp) unit = 1.0_wp
-      end function unit_of_each
 
       !> A point whose bound goes up and down goes a part of the way to Picard's: with much friction, more of it may leave less
       !> pressure there, and the point would slip and open in turn for ever.

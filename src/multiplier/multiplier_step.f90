@@ -43,8 +43,8 @@ module atrito_multiplier_step
    implicit none (type, external)
    private
    public :: residual_of, provide_factor
-   public :: begin_multipliers, close_all, start_closed, take_multiplier_step, refine_step, accept_step, set_forces, pull_of, &
-             take_least_forces, clear_round_off, largest_of_pairs, rho_of
+   public :: begin_multipliers, close_all, start_closed, take_multiplier_step, refine_step, accept_step, set_forces, &
+             set_held_forces, pull_of, take_least_forces, clear_round_off, largest_of_pairs, rho_of
 
    integer(ip), parameter :: MOST_NEWTON = 200_ip
    integer(ip), parameter :: PATIENCE = 20_ip         !< Newton steps without a full one
@@ -167,6 +167,27 @@ contains
       state%a = multipliers%x(system%n - system%k + 1:)
    end subroutine set_forces
 
+   !> Forces from the displacements where the states are held: FREE rows obey their law, the others have the force of their bound.
+   !>
+   !>     q_i = (e_i + rho_i q_o,i)/(D_i + rho_i) in FREE rows, else the bound
+   !>
+   !> Not clipped: a force beyond a bound says that the state is another one.
+   subroutine set_held_forces(system, bounds, multipliers, state)
+      class(contact_system_t), intent(in) :: system
+      type(box_bounds_t), intent(in) :: bounds
+      type(multiplier_t), intent(in) :: multipliers
+      type(box_state_t), intent(inout) :: state
+
+      associate (rho => rho_of(system, multipliers))
+         where (state%state == FREE) state%q = (multipliers%e + rho*multipliers%q_old)/(bounds%d + rho)
+      end associate
+      where (state%state == AT_LOWER) state%q = bounds%lower
+      where (state%state == AT_UPPER) state%q = bounds%upper
+      where (state%state == FROZEN) state%q = 0.0_wp
+      state%r = multipliers%e - bounds%d*state%q
+      state%a = multipliers%x(system%n - system%k + 1:)
+   end subroutine set_held_forces
+
    !> A bilateral row may hold displacements that are none: their round-off is that of the other displacements of the body.
    !>
    !> An equation u_i = 0 has e = 0 exactly; what round-off does to it is that of solving for the whole body.
@@ -246,10 +267,11 @@ contains
    !>
    !> until a full step stays in the states that it was made for. `changed` tells the loop that it did not at first. After PATIENCE
    !> steps a change of forces by round-off is none: points at the edge of contact may change their states for ever.
-   subroutine take_multiplier_step(system, shape, bounds, multipliers, state, history, status)
+   subroutine take_multiplier_step(system, shape, bounds, holds, multipliers, state, history, status)
       class(contact_system_t), intent(inout) :: system !< A, B, loads, flexibilities
       type(bound_qp_t), intent(in) :: shape   !< numbers of unknowns and weights, for the history
       type(box_bounds_t), intent(in) :: bounds !< of the m forces [F], and their D [L/F]
+      logical, intent(in) :: holds            !< the states of `state` are tried first, not those of x
       type(multiplier_t), intent(inout) :: multipliers !< x, e, q_o, a_o and the sizes of the step
       type(box_state_t), intent(inout) :: state !< states of the m unknowns, q, a, r
       type(solve_history_t), intent(inout) :: history !< every linear solve is added
@@ -260,7 +282,11 @@ contains
 
       multipliers%settled = .false.
       multipliers%changed = .false.
-      call set_forces(system, bounds, multipliers, state)
+      if (holds) then
+         call set_held_forces(system, bounds, multipliers, state)
+      else
+         call set_forces(system, bounds, multipliers, state)
+      end if
       do newton = 1, MOST_NEWTON
          ! minus the gradient, the matrix of the present states, Newton's direction
          call residual_of(system, multipliers, state%q, residual)
@@ -272,7 +298,13 @@ contains
          call multiply_rows(system%rows, dx, de)
          before = state%q
          call try_full_step(system, bounds, dx, de, multipliers, state, stays)
-         if (.not. stays) call take_part_of_step()
+         if (.not. stays) then
+            if (holds .and. newton == 1) then
+               call set_forces(system, bounds, multipliers, state)
+            else
+               call take_part_of_step()
+            end if
+         end if
          ! points at the edge of contact may change for ever by what is round-off of their forces
          if (newton >= PATIENCE .and. .not. stays) stays = all(abs(state%q - before) <= multipliers%noise)
          call record_solve(history, shape, bounds, state)

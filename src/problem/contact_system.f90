@@ -32,6 +32,7 @@ module atrito_contact_system
       procedure(multiply_stiffness), deferred :: multiply
       procedure(factor_system), deferred :: factor
       procedure(solve_system), deferred :: solve
+      procedure :: solve_at_rows
       procedure(count_bytes), deferred :: memory_bytes
    end type contact_system_t
 
@@ -69,5 +70,16 @@ module atrito_contact_system
       end function count_bytes
 
    end interface
+
+contains
+
+   !> x <- the same at the unknowns of the rows and the amplitudes, of a load at these alone; what it is elsewhere is of no use. A
+   !> system that can do no less solves for all.
+   subroutine solve_at_rows(self, x)
+      class(contact_system_t), intent(in) :: self
+      real(wp), intent(inout) :: x(:)            !< (n) [F] in, [L] out
+
+      call self%solve(x)
+   end subroutine solve_at_rows
 
 end module atrito_contact_system
