@@ -25,7 +25,7 @@ module atrito_increment
    use atrito_controls, only: controls_t, METHOD_ANDERSON
    use atrito_final_check, only: check_law
    use atrito_increment_bound, only: prepare_bound, prove_bound
-   use atrito_increment_results, only: begin_early, clear_what_is_left, complete_results, recover
+   use atrito_increment_results, only: begin_early, clear_round_off, clear_what_is_left, complete_results, recover
    use atrito_increment_uniqueness, only: judge_uniqueness
    use atrito_idle_motions, only: settle_idle_motions, stop_slow_motion
    use atrito_kinds, only: ip, wp
@@ -148,6 +148,7 @@ contains
 
       call start_phase('recover')
       if (data%is_printed) call begin_early(data, solution, u)
+      call clear_round_off(data, solution)
       if (allocated(data%had%motion)) call clear_what_is_left(data, solution, u)
       call recover(data, solution, u, results)
       call stop_phase('recover')

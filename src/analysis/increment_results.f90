@@ -27,7 +27,9 @@ module atrito_increment_results
    use atrito_weak_forces, only: contact_sizes_t
    implicit none (type, external)
    private
-   public :: begin_early, clear_what_is_left, complete_results, recover
+   public :: begin_early, clear_round_off, clear_what_is_left, complete_results, recover
+
+   real(wp), parameter :: ROUND_OFF = 1.0e-14_wp            !< of the largest force on a body
 
 contains
 
@@ -61,6 +63,37 @@ contains
          if (data%line%tangential(j) == i) solution%t(j) = 0.0_wp
       end do
    end subroutine clear_what_is_left
+
+   !> Forces at points that are round-off of those on each of their bodies are none: what closes without force has no pressure of 1e-17
+   !> of the others, by which it were said to stick or slip.
+   pure subroutine clear_round_off(data, solution)
+      type(scene_data_t), intent(in) :: data
+      type(contact_solution_t), intent(inout) :: solution
+      real(wp) :: largest(0:data%fem%bodies%n)              ! 0: what has no body
+      integer(ip) :: b, i, j
+
+      largest(0) = huge(1.0_wp)
+      do b = 1, data%fem%bodies%n
+         associate (nodes => data%fem%bodies%list(b)%nodes)
+            largest(b) = maxval(abs(data%f(:, nodes)))
+         end associate
+      end do
+      do i = 1, size(data%line%point, kind=ip)
+         associate (of_row => bodies_of_row(data%rows, data%line%point(i), data%fem%bodies%of_node))
+            largest(of_row) = max(largest(of_row), abs(solution%state%q(i)))
+         end associate
+      end do
+      do i = 1, size(data%line%point, kind=ip)
+         j = data%line%point(i)
+         if (j > data%line%n - data%line%n_bilateral) cycle
+         associate (of_row => bodies_of_row(data%rows, j, data%fem%bodies%of_node))
+            if (all(of_row == 0) .or. abs(solution%state%q(i)) > ROUND_OFF*minval(largest(of_row))) cycle
+         end associate
+         solution%state%q(i) = 0.0_wp
+         if (data%line%normal(j) == i) solution%p(j) = 0.0_wp
+         if (data%line%tangential(j) == i) solution%t(j) = 0.0_wp
+      end do
+   end subroutine clear_round_off
 
    !> What is worth its time where it is printed: sums by joint, stresses and their error, the largest of all, the limits of
    !> a linear theory.

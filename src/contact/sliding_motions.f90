@@ -166,10 +166,10 @@ contains
    end function printed_grain
 
    !> The digits of those of some numbers that lie in a range, counted from a decade on; one more than are looked for where there
-   !> are more.
+   !> are more. A number of few digits is off them by its rounding and no more: multiples of 0.0129000073 have not three.
    pure integer function digits_of(x, least, most, decade) result(digits)
       real(wp), intent(in) :: x(:, :), least, most, decade !< (2, n); the range; the decade
-      real(wp), parameter :: SPARE = 1.0e-3_wp
+      real(wp), parameter :: SPARE = 1.0e-3_wp, ROUNDINGS = 16.0_wp
       real(wp) :: per_unit, rest
       integer :: i, k
 
@@ -181,7 +181,7 @@ contains
             do
                rest = abs(x(k, i))*per_unit
                rest = rest - int(rest, lp)
-               if (min(rest, 1.0_wp - rest) <= SPARE) exit
+               if (min(rest, 1.0_wp - rest) <= min(SPARE, ROUNDINGS*EPS_MACH*decade*per_unit)) exit
                digits = digits + 1
                if (digits > MOST_DIGITS) return
                per_unit = 10.0_wp**digits/decade

@@ -20,7 +20,7 @@ module atrito_idle_motions
    use atrito_load_digits, only: place_doubt, is_within_digits, take_out
    use atrito_motion_rows, only: motion_rows_t, build_motion_rows
    use atrito_scene_data, only: scene_data_t
-   use atrito_sparse_rows, only: multiply_rows
+   use atrito_sparse_rows, only: multiply_rows, transposed_sizes
    implicit none (type, external)
    private
    public :: settle_idle_motions, stop_slow_motion
@@ -31,6 +31,7 @@ module atrito_idle_motions
    real(wp), parameter :: NO_FORCE = 1.0e-13_wp     !< of the largest force on bodies that touch: round-off
    real(wp), parameter :: DOUBTS = 5.0_wp           !< of a normal, which a force may be off by, over the largest one
    real(wp), parameter :: MOST_DOUBT = 1.0e-9_wp    !< that balances leave
+   real(wp), parameter :: BALANCED = 1.0e-8_wp      !< of the forces on a body, for the final check
 
 contains
 
@@ -60,7 +61,8 @@ contains
       holds = [(is_holding(data, solution, tau, i), i=1, rows%n)]
       call join_motions(rows, holds, group)
       call find_idle(rows, holds, group, idle)
-      if (may_change) call doubt_loads(data, rows, group, idle, holds, tau, solution, again)
+      if (may_change) call clear_idle_loads(data, rows, idle, solution, again)
+      if (may_change .and. .not. again) call doubt_loads(data, rows, group, idle, holds, tau, solution, again)
       if (again) return
       call doubt_small_forces()
       if (allocated(solution%inner%undetermined) .and. all(members_of(group) <= MOST_MOTIONS)) then
@@ -87,7 +89,7 @@ contains
 
       !> A force that is less than what the digits of the deck make of the largest one on its body, and without which a motion were
       !> idle, is none: a roller that stands on one node does not turn until the next one touches because its load is off by the
-      !> last digit. With friction the bound at its neighbours may hang on it, and it stays.
+      !> last digit. With friction the bound at its neighbours may hang on it, and it stays, where it is more than round-off.
       subroutine doubt_small_forces()
          real(wp) :: largest(rows%n)
          logical :: is_sure(size(holds))
@@ -98,9 +100,10 @@ contains
          is_sure = holds
          do i = 1, rows%n
             associate (j => data%line%point(i))
-               if (.not. holds(i) .or. rows%first(i + 1) == rows%first(i) .or. data%line%law(j)%kind /= FRICTION_NONE) cycle
+               if (.not. holds(i) .or. rows%first(i + 1) == rows%first(i) .or. data%line%normal(j) /= i) cycle
                if (j > data%line%n - data%line%n_bilateral) cycle
-               is_sure(i) = abs(solution%state%q(i)) > dropped_part(data, i)*largest(i)
+               is_sure(i) = abs(solution%state%q(i)) > merge(dropped_part(data, i), NO_FORCE, &
+                                                             data%line%law(j)%kind == FRICTION_NONE)*largest(i)
             end associate
          end do
          if (all(is_sure .eqv. holds)) return
@@ -183,6 +186,24 @@ contains
 
       part = max(NO_FORCE, min(DOUBTS*data%rows%doubt(data%line%point(i)), MOST_DOUBT))
    end function dropped_part
+
+   !> Takes the work on idle motions out of the loads, which a solution has counted as none: else its bodies were out of balance by
+   !> it, which may be all that there is of other forces.
+   subroutine clear_idle_loads(data, rows, idle, solution, has_changed)
+      type(scene_data_t), intent(inout) :: data
+      type(motion_rows_t), intent(in) :: rows
+      real(wp), intent(in) :: idle(:, :)            !< (k, motions)
+      type(contact_solution_t), intent(in) :: solution
+      logical, intent(out) :: has_changed
+      real(wp) :: most(rows%n_columns), sizes(rows%n_columns)
+      integer(ip) :: k
+
+      most = matmul(idle, matmul(rows%work, idle))
+      sizes = rows%work_size + transposed_sizes(rows, solution%state%q)
+      sizes = [(maxval(sizes, mask=rows%body == rows%body(k)), k=1, rows%n_columns)]
+      has_changed = any(abs(most) > NO_FORCE*sizes) .and. all(abs(most) <= BALANCED*sizes)
+      if (has_changed) call take_out(data, most)
+   end subroutine clear_idle_loads
 
    !> Takes the work on motions that were idle but for small forces out of the loads, where it is no more than what the digits of
    !> the deck make of them.

@@ -7,7 +7,7 @@ module atrito_least_motions
    use atrito_assembly, only: fem_t
    use atrito_bound_qp, only: FREE, AT_LOWER, AT_UPPER
    use atrito_contact_solution, only: contact_solution_t
-   use atrito_dense, only: eigen_symmetric
+   use atrito_dense, only: eigen_symmetric, least_squares
    use atrito_kinds, only: ip, wp
    use atrito_motion_rows, only: motion_rows_t
    use atrito_row_entries, only: first_motions, modes_at_node
@@ -123,9 +123,10 @@ contains
    !>
    !> which goes onto the plane a_i's = b_i from outside, and from inside back towards it as far as earlier steps had gone away from
    !> s0. Sweep after sweep that is coordinate ascent on the dual problem: its value rises with each step, and s converges, linearly
-   !> in the end (C. Hildreth, Naval Research Logistics Quarterly 4 (1957) 79-85). s = 0, the displacements as found, meets all
-   !> conditions, so there always is such a point.
-   pure function within_conditions(rows, basis, wanted, solution) result(s)
+   !> in the end (C. Hildreth, Naval Research Logistics Quarterly 4 (1957) 79-85); slowly where conditions are nearly the same, as
+   !> of a thin wedge: then another method ends it (meet_exactly). s = 0, the displacements as found,
+   !> meets all conditions, so there always is such a point.
+   function within_conditions(rows, basis, wanted, solution) result(s)
       type(motion_rows_t), intent(in) :: rows
       real(wp), intent(in) :: basis(:, :), wanted(:)
       type(contact_solution_t), intent(in) :: solution
@@ -155,8 +156,50 @@ contains
             s = s - step*a(:, i)
             most = max(most, abs(step)*sqrt(size_of(i)))
          end do
-         if (most <= SETTLED*norm2(wanted)) exit
+         if (most <= SETTLED*norm2(wanted)) return
       end do
+      call meet_exactly(a(:, seen), bound(seen), wanted, s)
    end function within_conditions
+
+   !> The same point in finitely many steps: x = s - s0 is the least with -a_i'x >= h_i = a_i's0 - b_i. With E of the columns (-a_i, h_i)
+   !> and u >= 0 the one of the least |E u - e|, e = (0, .., 0, 1), it is x = -r/r_last, r = E u - e (C. L. Lawson, R. J. Hanson,
+   !> Solving Least Squares Problems, 1974, chapter 23). s stays where rounding finds no end.
+   subroutine meet_exactly(a, bound, wanted, s)
+      real(wp), intent(in) :: a(:, :)               !< (motions, rows)
+      real(wp), intent(in) :: bound(:)              !< (rows)
+      real(wp), intent(in) :: wanted(:)             !< (motions) s0
+      real(wp), intent(inout) :: s(:)               !< (motions)
+      real(wp), parameter :: DEPENDENT = 1.0e-13_wp, ROUND_OFF = 1.0e-13_wp
+      real(wp) :: e(size(wanted) + 1, size(bound)), r(size(wanted) + 1), u(size(bound)), z(size(bound)), gain(size(bound))
+      real(wp), allocatable :: own(:)
+      logical :: is_free(size(bound))
+      integer(ip) :: pass, i, n, rank, info
+
+      n = size(wanted, kind=ip)
+      e(:n, :) = -a/spread(norm2(a, dim=1), 1, n)
+      e(n + 1, :) = (matmul(wanted, a) - bound)/norm2(a, dim=1)/norm2(wanted)
+      u = 0.0_wp
+      is_free = .false.
+      do pass = 1, MOST_SWEEPS
+         r = matmul(e, u)
+         r(n + 1) = r(n + 1) - 1
+         gain = merge(-huge(1.0_wp), -matmul(r, e), is_free)
+         if (maxval(gain) <= ROUND_OFF .and. abs(r(n + 1)) > ROUND_OFF) s = wanted - norm2(wanted)*r(:n)/r(n + 1)
+         if (maxval(gain) <= ROUND_OFF) return
+         is_free(maxloc(gain, dim=1)) = .true.
+         do                                           ! of the free ones one leaves at each turn
+            own = pack(u, is_free)
+            call least_squares(e(:, pack([(i, i=1, size(u, kind=ip))], is_free)), [spread(0.0_wp, 1, n), 1.0_wp], own, &
+                               DEPENDENT, rank, info)
+            if (info /= 0) return
+            z = unpack(own, is_free, 0.0_wp)
+            if (all(z > 0.0_wp .or. .not. is_free)) exit
+            u = u + minval(u/(u - z), mask=is_free .and. z <= 0.0_wp)*(z - u)
+            where (z <= 0.0_wp .and. u <= ROUND_OFF*maxval(u)) is_free = .false.
+            where (.not. is_free) u = 0.0_wp
+         end do
+         u = z
+      end do
+   end subroutine meet_exactly
 
 end module atrito_least_motions

@@ -11,7 +11,7 @@
 !>    u_n = n . (u_s - u_m) + w (T . d),   u_T = T . (u_s - u_m) - w (n . d),
 !>
 !> which vanish for every rigid motion that both bodies have together. Of the forces it is the couple that balances their moment. A
-!> master of one node has the nodes of the points beside it.
+!> point that faces a node has those that the points beside it face: which of the two faces there it was found on is round-off.
 !>
 !> It is done where a round side meets a round or a straight one along which it may slide or roll (atrito_sliding_motions). Straight
 !> sides face each other over gaps that are as small as displacements, and have their rows as they are. So have bodies that supports
@@ -31,6 +31,8 @@ module atrito_turning_rows
 
    real(wp), parameter :: TOUCHING = 1.0e-12_wp     !< of the coordinates: a distance that is round-off
    real(wp), parameter :: SHORT = 1.0e-6_wp         !< of the length of a point: nodes at one place tell no rotation
+   real(wp), parameter :: AT_NODE = 1.0e-2_wp       !< coefficient of the other nodes of a face, of a point that faces one of them
+   real(wp), parameter :: NEXT = 1.1_wp             !< sums of the lengths of points that are beside each other
    real(wp), parameter :: FAR = 3.0_wp              !< lengths of a point, beyond which linear theory closes no gap
    integer(ip), parameter :: MOST_NODES = 64_ip     !< of a master at one point and those beside it
 
@@ -104,7 +106,7 @@ contains
       real(wp), intent(out) :: turn(:, :)           !< (2, n) [1]
       integer(ip), intent(out) :: n                 !< 0: nothing is taken out
       real(wp) :: o(2), d(2), apart(2), s(size(node)), spread_of
-      integer(ip) :: body, k, last
+      integer(ip) :: body, k, last, other
 
       n = 0
       last = points%first(j + 1) - 1
@@ -121,11 +123,15 @@ contains
       apart = [dot_product(normal, d), normal(1)*d(2) - normal(2)*d(1)]
       where (abs(apart) <= TOUCHING*maxval(abs(o))) apart = 0.0_wp
       if (all(apart == 0.0_wp) .or. maxval(abs(apart)) > FAR*points%length(j)) return
-      call add_master(j, node, n)
+      call add_master(j, AT_NODE, node, n)
       if (n == 1) then
-         if (j > 1) call add_master(j - 1, node, n)
-         if (j < points%n) call add_master(j + 1, node, n)
+         do k = j - 1, j + 1, 2
+            other = modulo(k - 1, points%n) + 1_ip
+            if (norm2(points%x(:, other) - points%x(:, j)) > NEXT*(points%length(other) + points%length(j))) cycle
+            call add_master(other, AT_NODE, node, n)
+         end do
       end if
+      if (n == 1) call add_master(j, 0.0_wp, node, n)
       do k = 1, n
          s(k) = normal(1)*(fem%mesh%x(2, node(k)) - o(2)) - normal(2)*(fem%mesh%x(1, node(k)) - o(1))
       end do
@@ -141,13 +147,15 @@ contains
    contains
 
       !> Adds the nodes of the master at a point that belong to a body, each once.
-      pure subroutine add_master(j, node, n)
+      pure subroutine add_master(j, least, node, n)
          integer(ip), intent(in) :: j                  !< point
+         real(wp), intent(in) :: least                 !< coefficient of a node
          integer(ip), intent(inout) :: node(:), n      !< the first n are in use
          integer(ip) :: k
 
          do k = first_of_master(points, j), points%first(j + 1) - 1
             if (fem%bodies%of_node(points%entry(k)) /= body .or. n == size(node)) cycle
+            if (abs(points%coefficient(k)) < least) cycle
             if (any(node(:n) == points%entry(k))) cycle
             n = n + 1
             node(n) = points%entry(k)
