@@ -3,7 +3,7 @@ module atrito_increment_bound
    use atrito_body_cache, only: body_cache_t
    use atrito_contact_form, only: CONTACT_DENSE
    use atrito_contact_solution, only: contact_solution_t
-   use atrito_error_bound, only: bound_error
+   use atrito_error_bound, only: bound_error, is_tried_twice
    use atrito_exchanged_tractions, only: exchange_with_factors
    use atrito_model, only: step_t
    use atrito_reporter, only: report_progress
@@ -25,9 +25,11 @@ contains
       type(contact_solution_t), intent(in) :: solution      !< of the increment
       type(results_t), intent(in) :: results                !< when
 
-      if (allocated(data%exchanged)) deallocate (data%exchanged)
+      call forget(data)
       if (.not. is_wanted(data, results) .or. form /= CONTACT_DENSE .or. .not. solution%converged) return
-      call exchange_with_factors(data%model, data, solution, store%bodies, data%exchanged)
+      call exchange_with_factors(data%model, data, solution, .true., store%bodies, data%exchanged)
+      if (.not. (allocated(data%exchanged) .and. is_tried_twice(data))) return
+      call exchange_with_factors(data%model, data, solution, .false., store%bodies, data%exchanged_by_points)
    end subroutine prepare_bound
 
    !> The bound of a solution that has passed its check, with the loads of its time.
@@ -41,10 +43,18 @@ contains
       call start_phase('prove')
       call report_progress(data%reporter, 'bound of the error')
       call act_at(data%model, data%step, moment_t(results%step_time, results%time), acting)
-      call bound_error(data%model, acting, data, solution, data%exchanged, data%proof == PROOF_AUTO, results)
-      if (allocated(data%exchanged)) deallocate (data%exchanged)
+      call bound_error(data%model, acting, data, solution, data%exchanged, data%exchanged_by_points, data%proof == PROOF_AUTO, &
+                       results)
+      call forget(data)
       call stop_phase('prove')
    end subroutine prove_bound
+
+   subroutine forget(data)
+      type(scene_data_t), intent(inout) :: data
+
+      if (allocated(data%exchanged)) deallocate (data%exchanged)
+      if (allocated(data%exchanged_by_points)) deallocate (data%exchanged_by_points)
+   end subroutine forget
 
    !> Whether a solution gets a bound of its error: without being asked for it at the ends of steps alone, since the increments of a
    !> history that use the same factors take less time than a bound.

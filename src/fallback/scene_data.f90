@@ -74,6 +74,7 @@ module atrito_scene_data
       logical :: wants_element_errors = .false.             !< of what is printed
       integer :: proof = PROOF_OFF                          !< whether there is a bound of the error of what is printed
       real(wp), allocatable :: exchanged(:, :)              !< (2, n_nodes) for it, while the bodies are factored [L]
+      real(wp), allocatable :: exchanged_by_points(:, :)    !< the same for another kind of tractions of contact [L]
       integer(ip) :: starts = 0                             !< of a search for other solutions
       logical :: is_printed = .true.                        !< what is solved for is printed: it is worth stresses and estimates
       logical :: is_last = .true.                           !< nothing comes after it

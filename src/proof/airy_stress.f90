@@ -280,19 +280,21 @@ contains
       real(wp), intent(in) :: traction(:, 0:, :)    !< (2, 0:k, sides) Bernstein coefficients, counter-clockwise [F/L]
       real(wp), intent(out) :: outline(:)           !< as macro_t has them
       real(wp), intent(out), optional :: open       !< [F]
-      real(wp) :: at_corner(3)
+      real(wp) :: at_corner(3), farthest
       integer(ip) :: i, n, k
 
       n = size(corner, 2, kind=ip)
       k = size(traction, 2, kind=ip) - 1
       at_corner = 0.0_wp
+      farthest = 0.0_wp
       do i = 1, n
+         farthest = max(farthest, norm2(corner(1:2, i)))
          outline(3*i - 2:3*i) = at_corner
          associate (place => side_place(n, k, i))
-            call go_along(corner(:, after(i, n)) - corner(:, i), traction(:, :, i), at_corner, outline(place:place + 2*k - 2))
+            call go_along(corner(1:2, after(i, n)) - corner(1:2, i), traction(:, :, i), at_corner, outline(place:place + 2*k - 2))
          end associate
       end do
-      if (present(open)) open = max(maxval(abs(at_corner(2:))), abs(at_corner(1))/maxval(norm2(corner, dim=1)))
+      if (present(open)) open = max(maxval(abs(at_corner(2:))), abs(at_corner(1))/farthest)
    end subroutine outline_of_tractions
 
    !> phi and its gradient from one end of a side to the other, and the numbers of the side.

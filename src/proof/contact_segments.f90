@@ -53,8 +53,8 @@ contains
    pure subroutine segment_forces(segment, on_slave, on_master)
       type(segment_t), intent(in) :: segment
       real(wp), intent(out) :: on_slave(2, 3), on_master(2, 3)      !< (component, node) [F]
-      real(wp) :: t, force(2)
-      integer :: k
+      real(wp) :: t, force(2), share(3)
+      integer(ip) :: k, i
 
       on_slave = 0.0_wp
       on_master = 0.0_wp
@@ -62,10 +62,14 @@ contains
          t = GAUSS_PLACES(k)
          force = GAUSS_WEIGHTS(k)*segment%length*traction_at(segment, t)
          associate (n => segment%n, m => segment%n_master)
-            on_slave(:, :n) = on_slave(:, :n) + spread(force, 2, n)* &
-                              spread(face_shape_values(n, 2*between(segment%on_slave, t) - 1), 1, 2)
-            if (m > 0) on_master(:, :m) = on_master(:, :m) - spread(force, 2, m)* &
-                                          spread(face_shape_values(m, 2*between(segment%on_master, t) - 1), 1, 2)
+            share(:n) = face_shape_values(n, 2*between(segment%on_slave, t) - 1)
+            do i = 1, n
+               on_slave(:, i) = on_slave(:, i) + share(i)*force
+            end do
+            if (m > 0) share(:m) = face_shape_values(m, 2*between(segment%on_master, t) - 1)
+            do i = 1, m
+               on_master(:, i) = on_master(:, i) - share(i)*force
+            end do
          end associate
       end do
    end subroutine segment_forces
@@ -110,11 +114,19 @@ contains
       type(segment_t), intent(in) :: segment
       real(wp), intent(in) :: u(:, :)
       real(wp), intent(in) :: t
-      real(wp) :: d(2)
+      real(wp) :: d(2), share(3)
+      integer(ip) :: k
 
+      d = 0.0_wp
       associate (n => segment%n, m => segment%n_master)
-         d = matmul(u(:, segment%node(:n)), face_shape_values(n, 2*between(segment%on_slave, t) - 1))
-         if (m > 0) d = d - matmul(u(:, segment%master_node(:m)), face_shape_values(m, 2*between(segment%on_master, t) - 1))
+         share(:n) = face_shape_values(n, 2*between(segment%on_slave, t) - 1)
+         do k = 1, n
+            d = d + share(k)*u(:, segment%node(k))
+         end do
+         if (m > 0) share(:m) = face_shape_values(m, 2*between(segment%on_master, t) - 1)
+         do k = 1, m
+            d = d - share(k)*u(:, segment%master_node(k))
+         end do
       end associate
    end function relative
 

@@ -353,6 +353,7 @@ contains
       n = size(energy%rows, 1, kind=ip)
       rows = 0.0_wp
       do j = 1, energy%n_given
+         if (x(j) == 0.0_wp) cycle                  ! the first node, forces that are not there
          rows(:n) = rows(:n) + energy%rows(:, energy%n + j)*x(j)
          rows(n + 1:n + j) = rows(n + 1:n + j) + energy%rest(:j, j)*x(j)
       end do

@@ -95,6 +95,7 @@ contains
                call take_given(fem, loads, u, e, energy, x)
                call given_rows(energy, x(:energy%n_given), rows)
                do j = 1, energy%n_given
+                  if (x(j) == 0.0_wp) cycle
                   outlines%slope(:n, e) = outlines%slope(:n, e) + energy%slopes(:, n + j)*x(j)
                end do
                outlines%energy(e) = dot_product(rows, rows) + dot_product(outlines%a(:n, e), outlines%slope(:n, e))

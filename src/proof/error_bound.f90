@@ -29,6 +29,7 @@ module atrito_error_bound
    use atrito_internal_forces, only: internal_forces
    use atrito_kinds, only: ip, wp
    use atrito_mesh_sides, only: chains_t, list_chains, list_sides, mesh_sides_t
+   use atrito_misfit_places, only: strip_places_t
    use atrito_model, only: model_t, step_t
    use atrito_problem, only: problem_t
    use atrito_proof_forecast, only: work_of_bound, work_of_run
@@ -40,7 +41,15 @@ module atrito_error_bound
    use atrito_thermal_loads, only: add_thermal_of, elastic_energy
    implicit none (type, external)
    private
-   public :: bound_error, terms_t, sum_terms
+   public :: bound_error, ground_t, is_tried_twice, terms_t, sum_terms
+
+   !> What both kinds of tractions of contact have in common.
+   type :: ground_t
+      type(element_classes_t) :: classes
+      type(mesh_sides_t) :: sides                   !< these and what follows are made where they are first asked for
+      type(chains_t) :: chains
+      type(strip_places_t) :: strip
+   end type ground_t
 
    !> What the square of the bound is the sum of.
    type :: terms_t
@@ -67,29 +76,29 @@ contains
    !>
    !> results%element_error, where it is allocated, becomes the share of each element, eta being the root of the sum of their
    !> squares.
-   subroutine bound_error(model, acting, problem, solution, exchanged, if_quick, results)
+   subroutine bound_error(model, acting, problem, solution, exchanged, other, if_quick, results)
       type(model_t), intent(in) :: model
       type(step_t), intent(in) :: acting            !< with the loads of the time
       class(problem_t), intent(in) :: problem
       type(contact_solution_t), intent(in) :: solution
-      real(wp), allocatable, intent(inout) :: exchanged(:, :) !< what exchange_tractions found; not allocated: it is asked now
+      real(wp), allocatable, intent(inout) :: exchanged(:, :) !< what exchange_with_factors found; not allocated: it is asked now
+      real(wp), allocatable, intent(inout) :: other(:, :)     !< the same without the resultants
       logical, intent(in) :: if_quick               !< a bound is wanted where it takes less time than the rest of the run
       type(results_t), intent(inout) :: results     !< with displacements and reactions
       type(terms_t) :: terms, other_terms
-      type(element_classes_t) :: classes
-      real(wp), allocatable :: other(:, :)
+      type(ground_t) :: ground
 
       results%error_bound = error_bound_t()
       call check_hypotheses(problem, results%u, terms%why_not)
-      call find_classes(problem%fem, classes)
-      if (if_quick) terms%most_work = work_of_run(problem%fem, classes, sum(problem%points%n), solution%form, &
+      call find_classes(problem%fem, ground%classes)
+      if (if_quick) terms%most_work = work_of_run(problem%fem, ground%classes, sum(problem%points%n), solution%form, &
                                                   results%linear_solves)
       if (.not. allocated(terms%why_not)) then
-         call sum_terms(model, acting, problem, solution, .true., classes, exchanged, results, terms)
+         call sum_terms(model, acting, problem, solution, .true., exchanged, results, ground, terms)
       end if
-      if (.not. allocated(terms%why_not) .and. size(problem%points) > 0 .and. problem%fem%mesh%n_elements <= TRIED_TWICE) then
+      if (.not. allocated(terms%why_not) .and. is_tried_twice(problem)) then
          other_terms%most_work = terms%most_work - terms%work
-         call sum_terms(model, acting, problem, solution, .false., classes, other, results, other_terms)
+         call sum_terms(model, acting, problem, solution, .false., other, results, ground, other_terms)
          if (.not. allocated(other_terms%why_not)) then
             if (sum(other_terms%share) < sum(terms%share)) terms = other_terms
          end if
@@ -102,56 +111,63 @@ contains
       end if
    end subroutine bound_error
 
+   !> Whether both kinds of tractions of contact are tried.
+   logical function is_tried_twice(problem)
+      class(problem_t), intent(in) :: problem
+
+      is_tried_twice = size(problem%points) > 0 .and. problem%fem%mesh%n_elements <= TRIED_TWICE
+   end function is_tried_twice
+
    !> The terms of (1) with tractions of contact that have the resultants of the run, pair by pair, or those of the points.
-   subroutine sum_terms(model, acting, problem, solution, keeps, classes, exchanged, results, terms)
+   subroutine sum_terms(model, acting, problem, solution, keeps, exchanged, results, ground, terms)
       type(model_t), intent(in) :: model
       type(step_t), intent(in) :: acting
       class(problem_t), intent(in) :: problem
       type(contact_solution_t), intent(in) :: solution
       logical, intent(in) :: keeps                  !< the resultants
-      type(element_classes_t), intent(in) :: classes
       real(wp), allocatable, intent(inout) :: exchanged(:, :)
       type(results_t), intent(in) :: results
+      type(ground_t), intent(inout) :: ground       !< with the classes
       type(terms_t), intent(inout) :: terms
       type(proof_loads_t) :: loads
-      type(mesh_sides_t) :: sides
       type(side_cuts_t) :: cuts
-      type(chains_t) :: chains
       type(segment_t), allocatable :: segments(:)
       real(wp), allocatable :: force(:, :, :)
       integer(ip) :: degree
 
-      call balanced_segments(model, problem, solution, keeps, segments, terms%why_not)
-      if (.not. allocated(terms%why_not)) then
-         degree = maxval(DEGREE_OF(problem%fem%mesh%shape(:problem%fem%mesh%n_elements)))
-         call list_sides(problem%fem%mesh, sides)
-         call take_loads(model, acting, problem%fem, sides, degree, problem%held, results%reaction, loads, terms%why_not)
-      end if
-      if (.not. (allocated(terms%why_not) .or. allocated(exchanged))) then
-         call exchange(problem, solution, segments, exchanged, terms%why_not)
-      end if
-      if (.not. allocated(terms%why_not)) call take_contact(problem%fem, sides, segments, degree, loads, cuts, terms%why_not)
-      if (.not. allocated(terms%why_not)) then
-         terms%work = work_of_bound(problem%fem, classes, sides, cuts)
-         if (terms%work > terms%most_work) terms%why_not = 'it takes longer than the run: --proof on'
-      end if
-      if (.not. allocated(terms%why_not)) then
-         call list_chains(problem%fem%mesh, sides, chains)
-         call take_elements(problem%fem, classes, sides, results%u + exchanged, loads, force)
-         call equilibrate_sides(problem%fem%mesh, sides, chains, force, loads%known, loads%traction, terms%residual)
-         block
-            type(outlines_t) :: found                ! large: they go before the sides are looked at
+      associate (fem => problem%fem, classes => ground%classes, sides => ground%sides, chains => ground%chains)
+         call balanced_segments(model, problem, solution, keeps, segments, terms%why_not)
+         if (.not. allocated(terms%why_not)) then
+            degree = maxval(DEGREE_OF(fem%mesh%shape(:fem%mesh%n_elements)))
+            if (sides%n == 0) call list_sides(fem%mesh, sides)
+            call take_loads(model, acting, fem, sides, degree, problem%held, results%reaction, loads, terms%why_not)
+         end if
+         if (.not. (allocated(terms%why_not) .or. allocated(exchanged))) then
+            call exchange(problem, solution, segments, exchanged, terms%why_not)
+         end if
+         if (.not. allocated(terms%why_not)) call take_contact(fem, sides, segments, degree, loads, cuts, terms%why_not)
+         if (.not. allocated(terms%why_not)) then
+            terms%work = work_of_bound(fem, classes, sides, cuts)
+            if (terms%work > terms%most_work) terms%why_not = 'it takes longer than the run: --proof on'
+         end if
+         if (.not. allocated(terms%why_not)) then
+            if (chains%n == 0) call list_chains(fem%mesh, sides, chains)
+            call take_elements(fem, classes, sides, results%u + exchanged, loads, force)
+            call equilibrate_sides(fem%mesh, sides, chains, force, loads%known, loads%traction, terms%residual)
+            block
+               type(outlines_t) :: found                ! large: they go before the sides are looked at
 
-            deallocate (force)
-            call sum_stresses(problem%fem, classes, sides, chains, loads, results%u, cuts, found, terms%residual)
-            terms%share = found%energy
-            if (terms%keeps_outlines) terms%outlines = found
-         end block
-         if (any(terms%share < 0.0_wp)) terms%why_not = 'a side of an element faces too many others'
-      end if
-      if (.not. allocated(terms%why_not)) then
-         call add_misfit(problem%fem, problem%held, segments, results%u, terms%share, terms%of_law, terms%why_not)
-      end if
+               deallocate (force)
+               call sum_stresses(fem, classes, sides, chains, loads, results%u, cuts, found, terms%residual)
+               terms%share = found%energy
+               if (terms%keeps_outlines) terms%outlines = found
+            end block
+            if (any(terms%share < 0.0_wp)) terms%why_not = 'a side of an element faces too many others'
+         end if
+         if (.not. allocated(terms%why_not)) then
+            call add_misfit(fem, problem%held, segments, results%u, ground%strip, terms%share, terms%of_law, terms%why_not)
+         end if
+      end associate
    end subroutine sum_terms
 
    !> eta from the shares of the elements, and the norm that it is over.
@@ -169,11 +185,6 @@ contains
          bound%residual = residual
          eta2 = sum(share)
          bound%norm = sqrt(max(eta2, 0.0_wp))
-         if (eta2 > 0.0_wp) then
-            bound%normal = share_of((of_law(1) + of_law(2))/eta2)
-            bound%tangential = share_of(of_law(3)/eta2)
-            bound%bulk = 1.0_wp - bound%normal - bound%tangential
-         end if
          energy = 0.0_wp
          force_of_u = results%u
          call internal_forces(fem, results%u, force_of_u, energy)
@@ -183,6 +194,11 @@ contains
             return
          end if
          bound%percent = max(LEAST_PERCENT, 100*bound%norm/sqrt(2*energy))
+         if (bound%percent > LEAST_PERCENT) then    ! else they are shares of round-off
+            bound%normal = share_of((of_law(1) + of_law(2))/eta2)
+            bound%tangential = share_of(of_law(3)/eta2)
+            bound%bulk = 1.0_wp - bound%normal - bound%tangential
+         end if
          bound%is_certified = residual <= max(LEAST_DIGITS*bound%percent/100, 1.0e-12_wp)
          if (.not. bound%is_certified) bound%why_not = 'round-off of the equilibrium'
       end associate

@@ -24,16 +24,17 @@ module atrito_exchanged_tractions
 contains
 
    !> While the factors of the bodies are there. What can not be had is not allocated.
-   subroutine exchange_with_factors(model, problem, solution, bodies, change)
+   subroutine exchange_with_factors(model, problem, solution, keeps, bodies, change)
       type(model_t), intent(in) :: model
       class(problem_t), intent(in) :: problem
       type(contact_solution_t), intent(in) :: solution
+      logical, intent(in) :: keeps                  !< the resultants (balanced_segments)
       type(condensed_body_t), intent(inout) :: bodies(:)
       real(wp), allocatable, intent(out) :: change(:, :)
       type(segment_t), allocatable :: segments(:)
       character(len=:), allocatable :: why_not
 
-      call balanced_segments(model, problem, solution, .true., segments, why_not)
+      call balanced_segments(model, problem, solution, keeps, segments, why_not)
       if (.not. allocated(why_not)) call exchange(problem, solution, segments, change, why_not, bodies)
    end subroutine exchange_with_factors
 

@@ -8,7 +8,7 @@ module atrito_misfit_places
    use atrito_strip_mesh, only: make_strip, strip_t
    implicit none (type, external)
    private
-   public :: place_t, list_places, jump_at, part_count, part_ends
+   public :: place_t, strip_places_t, list_places, jump_at, part_count, part_ends
 
    !> A place of both sides, with its laws along the normal and along T.
    type :: place_t
@@ -17,6 +17,13 @@ module atrito_misfit_places
       real(wp) :: weight = 0.0_wp                   !< [L^2]
       type(law_t) :: law(2)
    end type place_t
+
+   !> The strip behind the sides, and where their places are: what does not depend on tractions and displacements.
+   type :: strip_places_t
+      type(strip_t) :: strip
+      integer(ip), allocatable :: vertex(:, :)      !< (2, places) as those of place_t
+      integer(ip), allocatable :: at(:, :)          !< (2, parts) places at the ends of each part; not allocated: not made yet
+   end type strip_places_t
 
 contains
 
@@ -37,15 +44,30 @@ contains
       ends = [real(wp) :: k - 1, k]/part_count(segment)
    end function part_ends
 
-   !> The strip behind the sides, and the places of its contact: each pair of corners once.
-   subroutine list_places(fem, held, segments, u, strip, places, at)
+   !> The places of contact with their laws.
+   subroutine list_places(fem, held, segments, u, behind, places)
       type(fem_t), intent(in) :: fem
       logical, intent(in) :: held(:, :)
       type(segment_t), intent(in) :: segments(:)
       real(wp), intent(in) :: u(:, :)
-      type(strip_t), intent(out) :: strip
+      type(strip_places_t), intent(inout) :: behind !< that of sides which are cut so, or nothing yet
       type(place_t), allocatable, intent(out) :: places(:)
-      integer(ip), allocatable, intent(out) :: at(:, :)
+      integer(ip) :: i
+
+      if (.not. allocated(behind%at)) call make_places(fem, held, segments, behind)
+      allocate (places(size(behind%vertex, 2)))
+      do i = 1, size(places, kind=ip)
+         places(i)%vertex = behind%vertex(:, i)
+      end do
+      call take_laws(segments, u, behind%at, places)
+   end subroutine list_places
+
+   !> The strip behind the sides, and the places of its contact: each pair of corners once.
+   subroutine make_places(fem, held, segments, behind)
+      type(fem_t), intent(in) :: fem
+      logical, intent(in) :: held(:, :)
+      type(segment_t), intent(in) :: segments(:)
+      type(strip_places_t), intent(out) :: behind
       integer(ip), allocatable :: element(:), face(:), vertex(:, :, :), order(:)
       real(wp), allocatable :: place(:)
       integer(lp), allocatable :: key(:)
@@ -76,7 +98,7 @@ contains
       block
          integer(ip) :: of_ends(m)
 
-         call make_strip(fem, held, element(:m), face(:m), place(:m), strip, of_ends)
+         call make_strip(fem, held, element(:m), face(:m), place(:m), behind%strip, of_ends)
          vertex = 0
          m = 0
          n = 0
@@ -90,9 +112,9 @@ contains
             end do
          end do
       end block
-      key = reshape(int(vertex(1, :, :), lp)*(strip%n + 1_lp) + vertex(2, :, :), [2*n_parts])
+      key = reshape(int(vertex(1, :, :), lp)*(behind%strip%n + 1_lp) + vertex(2, :, :), [2*n_parts])
       order = sorted_places(key)
-      allocate (places(2*n_parts), at(2, n_parts))
+      allocate (behind%vertex(2, 2*n_parts), behind%at(2, n_parts))
       n = 0
       do i = 1, 2*n_parts
          associate (part => (order(i) + 1)/2, end_of => 2 - mod(order(i), 2_ip))
@@ -101,13 +123,12 @@ contains
             else if (key(order(i)) /= key(order(i - 1))) then
                n = n + 1
             end if
-            places(n)%vertex = vertex(:, end_of, part)
-            at(end_of, part) = n
+            behind%vertex(:, n) = vertex(:, end_of, part)
+            behind%at(end_of, part) = n
          end associate
       end do
-      places = places(:n)
-      call take_laws(segments, u, at, places)
-   end subroutine list_places
+      behind%vertex = behind%vertex(:, :n)
+   end subroutine make_places
 
    !> The laws of the parts as those of their ends, with half of the length for each. Without delta w must make up for overlaps
    !> between the ends, too.

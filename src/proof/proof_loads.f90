@@ -68,7 +68,7 @@ contains
                    loads%at_nodes(2, maxval(mesh%shape(:mesh%n_elements)), mesh%n_elements), source=0.0_wp)
          do i = 1, sides%n
             do c = 1, 2
-               loads%known(c, i) = sides%element(2, i) == 0 .and. .not. all(held(c, sides%node(:, i)))
+               loads%known(c, i) = sides%element(2, i) == 0 .and. .not. all(held(c, sides%node(1:2, i)))
                if (sides%element(2, i) == 0 .and. sides%middle(i) > 0 .and. .not. loads%known(c, i)) then
                   if (.not. held(c, sides%middle(i))) why_not = 'a support that leaves the middle of a side'
                end if
@@ -161,7 +161,7 @@ contains
          if (sides%element(2, i) > 0) cycle
          do c = 1, 2
             if (known(c, i)) cycle
-            is_on_side(c, sides%node(:, i)) = .true.
+            is_on_side(c, sides%node(1:2, i)) = .true.
             if (sides%middle(i) > 0) is_on_side(c, sides%middle(i)) = .true.
          end do
       end do

@@ -13,7 +13,7 @@ module atrito_side_misfit
    use atrito_contact_tractions, only: SAME_DIRECTION
    use atrito_kinds, only: ip, lp, wp
    use atrito_law_lack, only: axis_of, balanced_jump, lack_of_part, traction_of_law
-   use atrito_misfit_places, only: jump_at, list_places, part_count, part_ends, place_t
+   use atrito_misfit_places, only: jump_at, list_places, part_count, part_ends, place_t, strip_places_t
    use atrito_sorting, only: each_once, sorted_places
    use atrito_strip_mesh, only: strip_energy, strip_t
    implicit none (type, external)
@@ -30,17 +30,16 @@ module atrito_side_misfit
 contains
 
    !> Adds the terms of (1) behind the first one to the elements' shares.
-   subroutine add_misfit(fem, held, segments, u, share, of_law, why_not)
+   subroutine add_misfit(fem, held, segments, u, behind, share, of_law, why_not)
       type(fem_t), intent(in) :: fem
       logical, intent(in) :: held(:, :)             !< (2, n_nodes)
       type(segment_t), intent(in) :: segments(:)
       real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
+      type(strip_places_t), intent(inout) :: behind !< that of sides which are cut so, or nothing yet
       real(wp), intent(inout) :: share(:)           !< (n_elements) [F L]
       real(wp), intent(out) :: of_law(3)            !< in sum: ||w||^2, 2 int rho_n, 2 int rho_t [F L]
       character(len=:), allocatable, intent(inout) :: why_not !< supports that do not let the sides move apart
-      type(strip_t) :: strip
       type(place_t), allocatable :: places(:)
-      integer(ip), allocatable :: at(:, :)          !< (2, parts) places at the ends of each part
       real(wp), allocatable :: w(:, :)
       real(wp), allocatable :: of_elements(:)
       real(wp) :: none, before, bulk, gain
@@ -51,8 +50,8 @@ contains
       if (size(segments) == 0) return
       none = ROUND_OFF*maxval(abs(u))
       bulk = sum(share)
-      call list_places(fem, held, segments, u, strip, places, at)
-      allocate (w(2, strip%n), source=0.0_wp)
+      call list_places(fem, held, segments, u, behind, places)
+      allocate (w(2, behind%strip%n), source=0.0_wp)
       allocate (of_elements(size(share)))
       call sum_terms(overlaps)
       gain = sum(of_law)                            ! it cannot be more
@@ -60,7 +59,7 @@ contains
       do round = 1, MOST_ROUNDS
          if (is_settled .or. .not. (overlaps .or. gain > WORTH*(bulk + sum(of_law)))) exit
          before = sum(of_law)
-         call descend(segments, strip, places, none, w, is_settled)
+         call descend(segments, behind%strip, places, none, w, is_settled)
          call sum_terms(overlaps)
          gain = abs(before - sum(of_law))
       end do
@@ -72,23 +71,27 @@ contains
       !> All terms, and as shares of the elements, those of the laws half on either side.
       subroutine sum_terms(overlaps)
          logical, intent(out) :: overlaps
-         integer(ip) :: i, k, n
+         integer(ip) :: i, j, k, n
          real(wp) :: lack(2), jump(2, 2), energy
          logical :: of_part
 
          of_law = 0.0_wp
          of_elements = 0.0_wp
-         do i = 1, strip%n_triangles
-            energy = strip_energy(fem, strip, i, w)
-            of_elements(strip%element(i)) = of_elements(strip%element(i)) + energy
-            of_law(1) = of_law(1) + energy
-         end do
+         associate (strip => behind%strip)
+            do i = 1, strip%n_triangles
+               energy = strip_energy(fem, strip, i, w)
+               of_elements(strip%element(i)) = of_elements(strip%element(i)) + energy
+               of_law(1) = of_law(1) + energy
+            end do
+         end associate
          overlaps = .false.
          n = 0
          do i = 1, size(segments, kind=ip)
             do k = 1, part_count(segments(i))
                n = n + 1
-               jump = reshape([jump_at(segments(i), places(at(1, n)), w), jump_at(segments(i), places(at(2, n)), w)], [2, 2])
+               do j = 1, 2
+                  jump(:, j) = jump_at(segments(i), places(behind%at(j, n)), w)
+               end do
                call lack_of_part(segments(i), u, part_ends(segments(i), k), jump, none, lack, of_part)
                overlaps = overlaps .or. of_part
                of_law(2:) = of_law(2:) + lack

@@ -35,13 +35,17 @@ contains
       real(wp), intent(inout) :: traction(:, 0:, :) !< (2, 0:k, sides) Bernstein coefficients on the first element [F/L]
       real(wp), intent(out) :: residual
       real(wp), allocatable :: b(:, :, :)           !< (2, ends and middle, sides) moments on the first element
+      real(wp), allocatable :: length(:)            !< (sides) [L]
+      real(wp), allocatable :: run(:), sign_of(:), weight(:) ! of one chain
+      integer(ip), allocatable :: ends(:)
       real(wp) :: worst
       integer(ip) :: i, k, n_terms
 
       n_terms = size(traction, 2, kind=ip)
-      allocate (b(2, n_terms, sides%n))
+      allocate (b(2, n_terms, sides%n), length(sides%n))
       do i = 1, sides%n
-         b(:, :, i) = moments_of(traction(:, :, i), side_length(mesh, sides, i))
+         length(i) = side_length(mesh, sides, i)
+         b(:, :, i) = moments_of(traction(:, :, i), length(i))
          if (n_terms < 3) cycle
          if (sides%middle(i) == 0) then             ! a side of two nodes beside others of three: linear functions
             b(:, :2, i) = b(:, :2, i) + 0.5_wp*spread(b(:, 3, i), 2, 2)
@@ -53,6 +57,9 @@ contains
          end associate
       end do
       worst = 0.0_wp
+      associate (most => maxval(chains%first(2:chains%n + 1) - chains%first(:chains%n)))
+         allocate (run(0:most), sign_of(0:most), weight(0:most), ends(0:most))
+      end associate
       do i = 1, chains%n
          associate (first => chains%first(i), last => chains%first(i + 1) - 1)
             call go_round(chains%node(i), last - first + 1, chains%element(first:last), chains%corner(first:last), &
@@ -63,12 +70,12 @@ contains
       do i = 1, sides%n
          if (n_terms == 3 .and. sides%middle(i) == 0) then  ! a side of two nodes beside others of three
             if (.not. all(known(:, i))) then
-               traction(:, ::2, i) = traction_of(b(:, :2, i), side_length(mesh, sides, i), 1_ip)
+               traction(:, ::2, i) = traction_of(b(:, :2, i), length(i), 1_ip)
                traction(:, 1, i) = 0.5_wp*(traction(:, 0, i) + traction(:, 2, i))
             end if
             cycle
          end if
-         traction(:, :, i) = traction_of(b(:, :, i), side_length(mesh, sides, i), n_terms - 1)
+         traction(:, :, i) = traction_of(b(:, :, i), length(i), n_terms - 1)
       end do
 
    contains
@@ -77,14 +84,14 @@ contains
       subroutine go_round(node, n, element, corner, side)
          integer(ip), intent(in) :: node, n         !< n: elements
          integer(ip), intent(in) :: element(:), corner(:), side(0:)
-         real(wp) :: run(0:n), sign_of(0:n), weight(0:n), b0
-         integer(ip) :: j, c, first, ends(0:n)
+         real(wp) :: b0
+         integer(ip) :: j, c, first
 
          do j = 0, n
             ends(j) = merge(1, 2, sides%node(1, side(j)) == node)
             ! the first element of a side that ends at the node lies before it
             sign_of(j) = merge(-1, 1, ends(j) == 1)
-            weight(j) = 1/side_length(mesh, sides, side(j))
+            weight(j) = 1/length(side(j))
          end do
          first = merge(1, 0, side(0) == side(n))
          do c = 1, 2

@@ -38,6 +38,7 @@ module atrito_star_sweeps
       integer(ip), allocatable :: at(:, :)          !< the same among the free ones of the star; 0: held
       real(wp), allocatable :: sign_of(:, :)
       real(wp), allocatable :: factor(:, :)         !< (n_free, n_free)
+      real(wp), allocatable :: slope(:), step(:)    !< (n_free) of its elements together
    end type star_t
 
    real(wp), parameter :: ROUND_OFF = 1.0e-11_wp    !< a pivot below this share of its diagonal is none
@@ -54,16 +55,47 @@ contains
       type(outlines_t), intent(inout) :: outlines
       real(wp), intent(out) :: gain                 !< what the energy has become less by [F L]
       type(star_t) :: star
-      integer(ip) :: i
+      logical, allocatable :: is_held(:), is_first(:, :) ! of the next star
+      integer(ip) :: i, most
 
+      most = maxval(chains%first(2:chains%n + 1) - chains%first(:chains%n))
+      allocate (is_held(3 + (2*outlines%degree - 1)*(most + 1)), is_first(2, most))
       gain = 0.0_wp
       do i = 1, chains%n
          associate (first => chains%first(i), last => chains%first(i + 1) - 1)
-            call take_star(mesh, sides, known, chains%element(first:last), chains%corner(first:last), &
-                           chains%side(first + i - 1:last + i), outlines, star)
+            call take_star(chains%element(first:last), chains%corner(first:last), chains%side(first + i - 1:last + i))
             if (star%n_free > 0) call improve_star(star, chains%element(first:last), outlines, gain)
          end associate
       end do
+
+   contains
+
+      !> The system of a star, if it is not the one that is there.
+      subroutine take_star(element, corner, side)
+         integer(ip), intent(in) :: element(:), corner(:), side(0:) !< a chain
+         integer(ip) :: n, j, n_elements
+         logical :: is_same
+
+         n_elements = size(element, kind=ip)
+         n = 3 + (2*outlines%degree - 1)*(n_elements + merge(0, 1, side(0) == side(n_elements)))
+         call find_held(mesh, sides, known, side, outlines%degree, is_held(:n))
+         do j = 1, n_elements
+            is_first(1, j) = sides%of_element(corner(j), element(j)) > 0
+            is_first(2, j) = sides%of_element(corner_before(mesh, element(j), corner(j)), element(j)) > 0
+         end do
+         is_same = star%n == n
+         if (is_same) is_same = size(star%corner) == n_elements
+         if (is_same) is_same = all(star%class_of == outlines%class_of(element) .and. star%corner == corner) .and. &
+                                all(star%is_first .eqv. is_first(:, :n_elements)) .and. all(star%is_held .eqv. is_held(:n))
+         if (is_same) return
+         star%n = n
+         star%class_of = outlines%class_of(element)
+         star%corner = corner
+         star%is_first = is_first(:, :n_elements)
+         star%is_held = is_held(:n)
+         call make_star(mesh, element, side(0) == side(n_elements), outlines, star)
+      end subroutine take_star
+
    end subroutine sweep_stars
 
    !> The least energy over the numbers of one star.
@@ -77,61 +109,27 @@ contains
    !> costs the product of some small matrices, whatever the mesh. The order of the system is 3 + (2k - 1) times the sides that meet
    !> at the corner, 15 with k = 2 in a grid of quadrilaterals.
    subroutine improve_star(star, element, outlines, gain)
-      type(star_t), intent(in) :: star
+      type(star_t), intent(inout) :: star
       integer(ip), intent(in) :: element(:)         !< of a chain
       type(outlines_t), intent(inout) :: outlines
       real(wp), intent(inout) :: gain
-      real(wp) :: step(star%n_free), slope(star%n_free)
       integer(ip) :: j, s
 
-      slope = 0.0_wp
+      star%slope = 0.0_wp
       do j = 1, size(element, kind=ip)
          do s = 1, size(star%at, 1, kind=ip)
             associate (k => star%at(s, j))
-               if (k > 0) slope(k) = slope(k) - star%sign_of(s, j)*outlines%slope(star%place(s, j), element(j))
+               if (k > 0) star%slope(k) = star%slope(k) - star%sign_of(s, j)*outlines%slope(star%place(s, j), element(j))
             end associate
          end do
       end do
-      step = slope
-      call solve_factored(star%n_free, star%factor, step)
-      gain = gain + dot_product(slope, step)
+      star%step = star%slope
+      call solve_factored(star%n_free, star%factor, star%step)
+      gain = gain + dot_product(star%slope, star%step)
       do j = 1, size(element, kind=ip)
-         call move_outline(star%place(:, j), star%at(:, j), star%sign_of(:, j), step, element(j), outlines)
+         call move_outline(star%place(:, j), star%at(:, j), star%sign_of(:, j), star%step, element(j), outlines)
       end do
    end subroutine improve_star
-
-   !> The system of a star, if it is not the one that is there.
-   subroutine take_star(mesh, sides, known, element, corner, side, outlines, star)
-      type(mesh_t), intent(in) :: mesh
-      type(mesh_sides_t), intent(in) :: sides
-      logical, intent(in) :: known(:, :)
-      integer(ip), intent(in) :: element(:), corner(:), side(0:) !< a chain
-      type(outlines_t), intent(in) :: outlines
-      type(star_t), intent(inout) :: star
-      logical :: is_held(3*size(element) + 6), is_first(2, size(element))
-      integer(ip) :: n, j, per_side, n_elements
-      logical :: is_same
-
-      n_elements = size(element, kind=ip)
-      per_side = 2*outlines%degree - 1
-      n = 3 + per_side*(n_elements + merge(0, 1, side(0) == side(n_elements)))
-      call find_held(mesh, sides, known, side, outlines%degree, is_held(:n))
-      do j = 1, n_elements
-         is_first(1, j) = sides%of_element(corner(j), element(j)) > 0
-         is_first(2, j) = sides%of_element(corner_before(mesh, element(j), corner(j)), element(j)) > 0
-      end do
-      is_same = star%n == n
-      if (is_same) is_same = size(star%corner) == n_elements
-      if (is_same) is_same = all(star%class_of == outlines%class_of(element) .and. star%corner == corner) .and. &
-                             all(star%is_first .eqv. is_first) .and. all(star%is_held .eqv. is_held(:n))
-      if (is_same) return
-      star%n = n
-      star%class_of = outlines%class_of(element)
-      star%corner = corner
-      star%is_first = is_first
-      star%is_held = is_held(:n)
-      call make_star(mesh, element, side(0) == side(n_elements), outlines, star)
-   end subroutine take_star
 
    !> Where the numbers of a star stand in its elements, and the factor of its system.
    subroutine make_star(mesh, element, is_round, outlines, star)
@@ -150,8 +148,9 @@ contains
          star%n_free = star%n_free + 1
          free(j) = star%n_free
       end do
-      if (allocated(star%place)) deallocate (star%place, star%at, star%sign_of, star%factor)
+      if (allocated(star%place)) deallocate (star%place, star%at, star%sign_of, star%factor, star%slope, star%step)
       allocate (star%place(m, size(element)), star%at(m, size(element)), star%sign_of(m, size(element)))
+      allocate (star%slope(star%n_free), star%step(star%n_free))
       allocate (star%factor(star%n_free, star%n_free), source=0.0_wp)
       do j = 1, size(element, kind=ip)
          call find_places(j)

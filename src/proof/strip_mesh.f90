@@ -114,7 +114,7 @@ contains
       first = centre
       if (marks%first_of(e) > 0) then
          do i = 1, n
-            call add_vertex(strip, middle + CORE*(strip%x(:, outline(i)) - middle), [.true., .true.], next)
+            call add_vertex(strip, middle + CORE*(strip%x(1:2, outline(i)) - middle), [.true., .true.], next)
          end do
       end if
       do i = 1, n
@@ -158,8 +158,8 @@ contains
                      if (nint(t*PLACES, lp) > 1 .and. .not. is_same(marks, at)) then
                         call make_room(outline, n, n + 1)
                         n = n + 1
-                        call add_vertex(strip, (1 - t)*fem%mesh%x(:, from) + t*fem%mesh%x(:, to), &
-                                        .not. (held(:, from) .and. held(:, to)), outline(n))
+                        call add_vertex(strip, (1 - t)*fem%mesh%x(1:2, from) + t*fem%mesh%x(1:2, to), &
+                                        .not. (held(1:2, from) .and. held(1:2, to)), outline(n))
                      end if
                      vertex(i) = outline(n)
                   end if
@@ -175,7 +175,7 @@ contains
          integer(ip), intent(in) :: node
          integer(ip), intent(out) :: at
 
-         if (of_node(node) == 0) call add_vertex(strip, fem%mesh%x(:, node),.not. held(:, node), of_node(node))
+         if (of_node(node) == 0) call add_vertex(strip, fem%mesh%x(1:2, node),.not. held(1:2, node), of_node(node))
          at = of_node(node)
       end subroutine take_node
 
@@ -259,7 +259,7 @@ contains
       call list_neighbours(strip)
       allocate (strip%own(2, 2, strip%n), strip%coupling(2, 2, size(strip%other)), source=0.0_wp)
       do i = 1, strip%n_triangles
-         stiffness = triangle_stiffness(fem, strip%element(i), strip%x(:, strip%corner(:, i)))
+         stiffness = triangle_stiffness(fem, strip, i)
          do j = 1, 3
             associate (mine => strip%corner(j, i))
                do k = 1, 3
@@ -284,7 +284,9 @@ contains
 
       allocate (strip%first(strip%n + 1), source=0_ip)
       do i = 1, strip%n_triangles
-         strip%first(strip%corner(:, i) + 1) = strip%first(strip%corner(:, i) + 1) + 2
+         do j = 1, 3
+            strip%first(strip%corner(j, i) + 1) = strip%first(strip%corner(j, i) + 1) + 2
+         end do
       end do
       strip%first(1) = 1
       do i = 1, strip%n
@@ -312,15 +314,18 @@ contains
       strip%other = other(:n)
    end subroutine list_neighbours
 
-   pure function triangle_stiffness(fem, e, x) result(k)
+   pure function triangle_stiffness(fem, strip, i_triangle) result(k)
       type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: e
-      real(wp), intent(in) :: x(2, 3)
+      type(strip_t), intent(in) :: strip
+      integer(ip), intent(in) :: i_triangle
       real(wp) :: k(6, 6)
-      real(wp) :: b(COMPONENTS, 6), twice_area, g(2)
+      real(wp) :: x(2, 3), b(COMPONENTS, 6), stress(COMPONENTS, 6), twice_area, g(2)
       integer(ip) :: i
       integer(ip), parameter :: NEXT(4) = [2, 3, 1, 2]
 
+      do i = 1, 3
+         x(:, i) = strip%x(:, strip%corner(i, i_triangle))
+      end do
       twice_area = (x(1, 2) - x(1, 1))*(x(2, 3) - x(2, 1)) - (x(1, 3) - x(1, 1))*(x(2, 2) - x(2, 1))
       b = 0.0_wp
       do i = 1, 3
@@ -328,8 +333,10 @@ contains
          b(:, 2*i - 1) = [g(1), 0.0_wp, g(2)]
          b(:, 2*i) = [0.0_wp, g(2), g(1)]
       end do
-      associate (section => fem%sections(fem%section_of(e)))
-         k = 0.5_wp*abs(twice_area)*section%thickness*matmul(transpose(b), matmul(elasticity_matrix(section, fem%mesh%state(e)), b))
+      associate (e => strip%element(i_triangle), section => fem%sections(fem%section_of(strip%element(i_triangle))))
+         stress = matmul(elasticity_matrix(section, fem%mesh%state(e)), b)
+         k = matmul(transpose(b), stress)
+         k = 0.5_wp*abs(twice_area)*section%thickness*k
       end associate
    end function triangle_stiffness
 
@@ -340,11 +347,14 @@ contains
       integer(ip), intent(in) :: i
       real(wp), intent(in) :: w(:, :)               !< (2, n) [L]
       real(wp) :: v(6)
+      integer(ip) :: j
 
-      v = reshape(w(:, strip%corner(:, i)), [6])
+      do j = 1, 3
+         v(2*j - 1:2*j) = w(:, strip%corner(j, i))
+      end do
       energy = 0.0_wp
       if (all(abs(v) <= 0.0_wp)) return
-      energy = dot_product(v, matmul(triangle_stiffness(fem, strip%element(i), strip%x(:, strip%corner(:, i))), v))
+      energy = dot_product(v, matmul(triangle_stiffness(fem, strip, i), v))
    end function strip_energy
 
 end module atrito_strip_mesh

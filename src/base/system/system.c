@@ -1065,9 +1065,13 @@ void *atrito_share_memory(size_t bytes) {
 
 /* ---- libraries ---- */
 
-/* A routine by its symbol; NULL where the library cannot be loaded or has none of that name. The library stays loaded. */
+/* A routine by its symbol; NULL where the library cannot be loaded or has none of that name. The library stays loaded. If it brings a
+ * BLAS of its own (CMake's ATRITO_OWN_BLAS), that starts no threads. */
 void *atrito_find_routine(const char *file, const char *symbol) {
-   void *library = dlopen(file, RTLD_LAZY);
+   void *library;
+
+   setenv("OPENBLAS_NUM_THREADS", "1", 0);
+   library = dlopen(file, RTLD_LAZY);
    return library ? dlsym(library, symbol) : NULL;
 }
 
