@@ -40,7 +40,7 @@ module atrito_error_bound
    use atrito_thermal_loads, only: add_thermal_of, elastic_energy
    implicit none (type, external)
    private
-   public :: bound_error, terms_t, sum_terms
+   public :: bound_error, terms_t, sum_terms, check_hypotheses, take_contact, take_elements, LEAST_DIGITS
 
    !> What the square of the bound is the sum of.
    type :: terms_t
