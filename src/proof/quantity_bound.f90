@@ -124,7 +124,7 @@ contains
       end if
       if (allocated(why_not)) return
       middle = bound%least + sum(works)
-      lost = ROUND_OFF*(abs(bound%least) + sum(abs(works)) + norms)
+      lost = ROUND_OFF*(abs(bound%least) + sum(abs(dual%f*primal%u)) + sum(abs(force*dual%u)) + sum(abs(works)) + norms)
       bound%least = middle - 0.25_wp*below - lost
       bound%most = middle + 0.25_wp*above + lost
       bound%exists = .true.
