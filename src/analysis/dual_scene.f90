@@ -59,6 +59,7 @@ contains
       call close_joints(common%joints, dual%segments, scene%held, dual%u)
       if (misfit_of_joints(common%joints, dual%segments, dual%u) > NO_JUMP*maxval(abs(dual%u))) then
          why_not = 'supports on both sides of a contact that is joined'
+         if (any(quantity%parts%kind == PART_PAIR)) why_not = 'the pair is joined to others or to supports at its ends'
          return
       end if
       call tractions_of_forces(common%joints, q, dual%segments)
@@ -133,8 +134,11 @@ contains
       call trim_rows(model%bilateral)
       step%title = ''
       step%prescribed%n = prescribed%n
-      step%prescribed%node = prescribed%node(:prescribed%n)
-      step%prescribed%dof = prescribed%dof(:prescribed%n)
+      allocate (step%prescribed%node(prescribed%n), step%prescribed%dof(prescribed%n))
+      if (prescribed%n > 0) then                    ! else its lists may not be there
+         step%prescribed%node = prescribed%node(:prescribed%n)
+         step%prescribed%dof = prescribed%dof(:prescribed%n)
+      end if
       allocate (step%prescribed%value(prescribed%n), source=0.0_wp)
       allocate (step%node_loads%node(0), step%node_loads%dof(0), step%node_loads%value(0))
       allocate (step%element_loads%element(0), step%element_loads%kind(0), step%element_loads%face(0), step%element_loads%line(0))

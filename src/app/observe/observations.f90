@@ -15,7 +15,7 @@ module atrito_observations
    use atrito_observer, only: observer_t
    use atrito_place_fields, only: nodal_strains
    use atrito_results, only: history_row_t, observed_t, results_t
-   use atrito_strings, only: nearest_names, same_name, string_t, to_text
+   use atrito_strings, only: append_string, nearest_names, same_name, string_t, to_text
    use atrito_summary, only: all_step_quantities, quantity_t
    implicit none (type, external)
    private
@@ -95,51 +95,69 @@ contains
       if (present(bounds)) call find_bounds(model, bounds, observations, is_ok, error)
    end subroutine read_observations
 
-   !> The quantities of --bound: observed ones by their names.
+   !> The quantities of --bound: observed ones by their names. What is wrong is a matter of the command line.
    subroutine find_bounds(model, bounds, observations, is_ok, error)
       type(model_t), intent(in) :: model
       type(string_t), intent(in) :: bounds(:)
       type(observations_t), intent(inout) :: observations
       logical, intent(inout) :: is_ok
       type(message_t), intent(inout) :: error
-      type(observed_t) :: longest
+      type(string_t), allocatable :: observed(:)
       integer :: b, i
 
       if (size(bounds) == 0) return
       if (.not. allocated(observations%list)) allocate (observations%list(0))
+      allocate (observed(0))
+      do i = 1, size(observations%list)
+         call append_string(observed, observations%list(i)%name)
+      end do
       allocate (observations%quantities(size(bounds)))
       do b = 1, size(bounds)
+         do i = 1, size(observed)
+            if (same_name(observed(i)%s, bounds(b)%s)) exit
+         end do
+         if (i > size(observed)) then
+            error%text = 'nothing of this name is observed'
+            error%expected = 'the name of a quantity of --observe or *OBSERVE'
+            error%nearest = nearest_names(bounds(b)%s, observed, MOST_NEAREST)
+         else
+            observations%quantities(b)%name = observed(i)%s
+            call find_bound(model, observations, i, observed, observations%quantities(b), error)
+         end if
+         is_ok = .not. allocated(error%text)
+         if (is_ok) cycle
          error%severity = SEVERITY_ERROR
          error%id = 'E-OBSERVE'
          error%file = 'atrito'
-         is_ok = .false.
-         do i = 1, size(observations%list)
-            if (same_name(observations%list(i)%name, bounds(b)%s)) exit
-         end do
-         if (i > size(observations%list)) then
-            error%text = '--bound '//bounds(b)%s//': nothing of this name is observed'
-            error%expected = 'the name of a quantity of --observe or *OBSERVE'
-            error%nearest = nearest_names(bounds(b)%s, [(string_t(observations%list(i)%name), i=1, size(observations%list))], &
-                                          MOST_NEAREST)
-            return
-         end if
-         associate (one => observations%list(i), quantity => observations%quantities(b))
-            quantity%name = one%name
-            call find_quantity(model, one%text, observations%names, observations%values, observations%has_own_degree, one%calls, &
-                               one%terms, quantity, error)
-            is_ok = .not. allocated(error%text)
-            if (is_ok .and. len(one%name) + len(FROM) > len(longest%name)) then
-               error%text = 'its name is too long for '//one%name//FROM//' and '//one%name//TO
-               is_ok = .false.
-            end if
-            if (.not. is_ok) then
-               error%text = '--bound '//one%name//': '//error%text
-               call complete_error(one, error)
-               return
-            end if
-         end associate
+         error%text = '--bound '//bounds(b)%s//': '//error%text
+         if (error%column > 0) error%text = error%text//', column '//to_text(error%column)
+         if (error%column > 0) error%source = observations%list(i)%text
+         return
       end do
    end subroutine find_bounds
+
+   !> The i-th one as a linear quantity. error%text: it is none, or its columns have no names.
+   subroutine find_bound(model, observations, i, observed, quantity, error)
+      type(model_t), intent(in) :: model
+      type(observations_t), intent(in) :: observations
+      integer, intent(in) :: i
+      type(string_t), intent(in) :: observed(:)        !< names of all
+      type(linear_quantity_t), intent(inout) :: quantity
+      type(message_t), intent(inout) :: error
+      type(observed_t) :: longest
+
+      associate (one => observations%list(i))
+         call find_quantity(model, one%text, observations%names, observations%values, observations%has_own_degree, one%calls, &
+                            one%terms, quantity, error)
+         if (allocated(error%text)) return
+         if (len(one%name) + len(FROM) > len(longest%name)) error%text = 'its name is too long'
+         if (is_one_of(one%name//FROM, observed) .or. is_one_of(one%name//TO, observed)) then
+            error%text = 'its bounds have the name of another quantity that is observed'
+         end if
+         if (allocated(error%text)) error%expected = 'columns '//one%name//FROM//' and '//one%name//TO//', each of at most '// &
+                                                     to_text(len(longest%name, kind=ip))//' characters'
+      end associate
+   end subroutine find_bound
 
    !> NAME of `NAME=EXPRESSION`.
    pure function observation_name(text) result(name)
@@ -248,7 +266,7 @@ contains
       error%severity = SEVERITY_ERROR
       error%id = 'E-OBSERVE'
       error%file = 'atrito'
-      if (index(error%text, '--bound') /= 1) error%text = label_of(one)//': '//error%text
+      error%text = label_of(one)//': '//error%text
       if (error%column > 0 .and. allocated(error%known)) then
          error%nearest = nearest_names(one%text(error%column:error%column + error%length - 1), error%known, MOST_NEAREST)
          if (size(error%nearest) > 0 .or. size(error%known) > FEW) deallocate (error%known)

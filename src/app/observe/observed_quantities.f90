@@ -9,8 +9,8 @@ module atrito_observed_quantities
    use atrito_model, only: model_t, SURFACE_ELEMENTS
    use atrito_observed_arguments, only: put_place
    use atrito_observed_places, only: index_of_surface
-   use atrito_observed_terms, only: pair_quantity_list, term_t, NODAL_FIELDS, POINT_FIELDS, TAKE_MEAN, TAKE_SUM, TERM_NODES, &
-                                    TERM_PAIR, TERM_POINTS
+   use atrito_observed_terms, only: pair_quantity_list, term_t, NODAL_FIELDS, POINT_FIELDS, TAKE_LARGEST, TAKE_LEAST, TAKE_MEAN, &
+                                    TAKE_SUM, TERM_NODES, TERM_PAIR, TERM_POINTS
    use atrito_sets, only: find_set, members_of
    use atrito_strings, only: string_t
    use atrito_summary, only: quantity_t
@@ -121,6 +121,7 @@ contains
       end select
       if (part%component > 0 .or. allocated(fault%text)) return
       fault%text = call%name//' has no bound'
+      if (size(call%arguments) > 0) fault%text = call%name//'('//call%arguments(1)%text//', ...) has no bound'
       fault%expected = CAN_BE_BOUND
       fault%column = int(call%first, ip)
       fault%length = int(call%last - call%first + 1, ip)
@@ -163,8 +164,9 @@ contains
       case default
          return
       end select
-      if (surface > 0 .or. elements > 0) return
-      fault%text = call%name//' is at points, where no bound is possible: the energy of a force at a point is infinite'
+      if (any(term%take == [TAKE_LEAST, TAKE_LARGEST])) part%component = 0
+      if (surface > 0 .or. elements > 0 .or. part%component == 0) return
+      fault%text = field//' at points has no bound: the energy of a force at a point is infinite'
       fault%expected = 'mean('//field//', ELSET) over an element set'
       if (part%kind /= PART_STRESS) fault%expected = fault%expected//', or mean('//field//', SURFACE) over a surface'
       call put_place(call%arguments(size(call%arguments)), fault)
