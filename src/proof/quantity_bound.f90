@@ -22,7 +22,6 @@ module atrito_quantity_bound
    use atrito_element_table, only: DEGREE_OF
    use atrito_equilibrium_stress, only: sum_again, sum_stresses
    use atrito_error_bound, only: take_contact, take_elements, LEAST_DIGITS
-   use atrito_internal_forces, only: internal_forces
    use atrito_joined_sides, only: forces_of_held, interface_energy, interface_product, joints_t
    use atrito_kinds, only: ip, wp
    use atrito_linear_quantity, only: quantity_bound_t
@@ -44,7 +43,7 @@ module atrito_quantity_bound
       type(outlines_t) :: outlines                  !< of the stress in equilibrium
       real(wp) :: energy = 0.0_wp                   !< |D|^2 [F L]
       real(wp) :: residual = 0.0_wp                 !< of the equilibrium, over the largest force
-      real(wp) :: of_displacements = 0.0_wp         !< |C eps(u)|^2 [F L]
+      real(wp) :: of_displacements = 0.0_wp         !< |C eps(u)|^2, strains of their own taken out [F L]
    end type held_scene_t
 
    !> What both scenes have in common.
@@ -78,7 +77,7 @@ contains
       type(held_scene_t), intent(inout) :: scene
       character(len=:), allocatable, intent(inout) :: why_not
       type(side_cuts_t) :: cuts
-      real(wp), allocatable :: force(:, :, :), force_of_u(:, :)
+      real(wp), allocatable :: force(:, :, :)
 
       call take_contact(scene%fem, common%sides, scene%segments, common%degree, scene%loads, cuts, why_not)
       if (allocated(why_not)) return
@@ -93,9 +92,7 @@ contains
          return
       end if
       scene%energy = sum(scene%outlines%energy) + interface_energy(common%joints, scene%segments, scene%u)
-      allocate (force_of_u(2, size(scene%u, 2)), source=0.0_wp)
-      call internal_forces(scene%fem, scene%u, force_of_u, scene%of_displacements)
-      scene%of_displacements = 2*max(scene%of_displacements, 0.0_wp) ! without strain round-off of either sign
+      scene%of_displacements = energy_of_displacements(common, scene)
    end subroutine find_stress
 
    !> The bounds from both scenes; bound%least and most have on entry the constant of the quantity.
@@ -153,12 +150,11 @@ contains
       has_digits = scene%residual <= max(LEAST_DIGITS*share, 1.0e-12_wp)
    end function has_digits
 
-   !> k times a scene and s/k times another one; of their tractions and stresses `with_stress`, else none.
-   subroutine combine(primal, dual, k, s, with_stress, scene)
+   !> k times a scene and s/k times another one.
+   subroutine combine(primal, dual, k, s, scene)
       type(held_scene_t), intent(in) :: primal, dual
       real(wp), intent(in) :: k
       integer, intent(in) :: s                      !< 1 or -1
-      logical, intent(in) :: with_stress
       type(held_scene_t), intent(inout) :: scene
 
       scene%fem = primal%fem
@@ -168,18 +164,12 @@ contains
       scene%segments = primal%segments
       scene%outlines%degree = primal%outlines%degree
       allocate (scene%outlines%energy(size(primal%outlines%energy)), source=0.0_wp)
-      allocate (scene%outlines%a, mold=primal%outlines%a)
-      allocate (scene%loads%volume, mold=primal%loads%volume)
+      scene%outlines%a = k*primal%outlines%a + (s/k)*dual%outlines%a
+      scene%loads%volume = k*primal%loads%volume + (s/k)*dual%loads%volume
       scene%loads%known = primal%loads%known
       allocate (scene%loads%traction, mold=primal%loads%traction)
       scene%loads%traction = 0.0_wp                 ! sides that are cut are looked for alone
-      scene%outlines%a = 0.0_wp
-      scene%loads%volume = 0.0_wp
-      if (with_stress) then
-         scene%outlines%a = k*primal%outlines%a + (s/k)*dual%outlines%a
-         scene%loads%volume = k*primal%loads%volume + (s/k)*dual%loads%volume
-         call add_segments_of()
-      end if
+      call add_segments_of()
 
    contains
 
@@ -205,14 +195,30 @@ contains
       real(wp), intent(in) :: k
       integer, intent(in) :: s
       type(held_scene_t) :: scene
+
+      call combine(primal, dual, k, s, scene)
+      energy = energy_of_displacements(common, scene)
+   end function stress_energy
+
+   !> |C eps(u)|^2 of the bodies.
+   real(wp) function energy_of_displacements(common, scene) result(energy)
+      type(common_t), intent(in) :: common
+      type(held_scene_t), intent(in) :: scene
+      type(outlines_t) :: nothing
+      type(proof_loads_t) :: no_loads
       type(side_cuts_t) :: no_cuts
       character(len=:), allocatable :: no_reason
 
+      nothing%degree = common%degree
+      allocate (nothing%a, mold=scene%outlines%a)
+      allocate (nothing%energy, mold=scene%outlines%energy)
+      allocate (no_loads%volume, mold=scene%loads%volume)
+      nothing%a = 0.0_wp
+      no_loads%volume = 0.0_wp
       call link_pieces(common%sides%n, no_cuts, no_reason)
-      call combine(primal, dual, k, s, .false., scene)
-      call sum_again(scene%fem, common%classes, common%sides, no_cuts, scene%loads, scene%u, scene%outlines)
-      energy = sum(scene%outlines%energy)
-   end function stress_energy
+      call sum_again(scene%fem, common%classes, common%sides, no_cuts, no_loads, scene%u, nothing)
+      energy = sum(nothing%energy)
+   end function energy_of_displacements
 
    !> |k D + s D*/k|^2
    subroutine difference_energy(common, primal, dual, k, s, energy, why_not)
@@ -226,7 +232,7 @@ contains
       type(side_cuts_t) :: cuts
 
       energy = 0.0_wp
-      call combine(primal, dual, k, s, .true., scene)
+      call combine(primal, dual, k, s, scene)
       call take_contact(scene%fem, common%sides, scene%segments, common%degree, scene%loads, cuts, why_not)
       if (allocated(why_not)) return
       call sum_again(scene%fem, common%classes, common%sides, cuts, scene%loads, scene%u, scene%outlines)
