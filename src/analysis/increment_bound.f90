@@ -1,6 +1,7 @@
 !> The bound of the error of an increment (atrito_error_bound).
 module atrito_increment_bound
    use atrito_body_cache, only: body_cache_t
+   use atrito_bounded_quantities, only: bound_quantities
    use atrito_contact_form, only: CONTACT_DENSE
    use atrito_contact_solution, only: contact_solution_t
    use atrito_error_bound, only: bound_error, is_tried_twice
@@ -45,6 +46,7 @@ contains
       call act_at(data%model, data%step, moment_t(results%step_time, results%time), acting)
       call bound_error(data%model, acting, data, solution, data%exchanged, data%exchanged_by_points, data%proof == PROOF_AUTO, &
                        results)
+      if (allocated(data%quantities)) call bound_quantities(data, acting, solution, results)
       call forget(data)
       call stop_phase('prove')
    end subroutine prove_bound

@@ -29,7 +29,7 @@ module atrito_load_model
    use atrito_timers, only: start_phase, stop_phase
    implicit none (type, external)
    private
-   public :: load_model, read_model, prepare_observations, check_adaptable, take_next_mesh
+   public :: load_model, read_model, prepare_observations, check_adaptable, check_bounds, take_next_mesh
 
 contains
 
@@ -164,6 +164,19 @@ contains
       end if
    end subroutine check_adaptable
 
+   !> --bound is a proof, and no restart file has it. status: STATUS_USAGE.
+   subroutine check_bounds(command, model, status)
+      type(command_t), intent(in) :: command
+      type(model_t), intent(in) :: model
+      type(status_t), intent(inout) :: status
+
+      if (.not. is_ok(status) .or. size(command%bound) == 0) return
+      if (command%proof == 'off') call set_status(status, STATUS_USAGE, '--bound asks for a proof, which --proof off excludes')
+      if (model%restart_every > 0 .or. allocated(command%restart)) then
+         call set_status(status, STATUS_USAGE, '--bound: not with *RESTART and --restart, whose files have no bounds')
+      end if
+   end subroutine check_bounds
+
    !> Reads the expressions of the deck and of --observe. code: STATUS_DECK or STATUS_USAGE for one that is wrong, which is printed.
    subroutine prepare_observations(command, model, observations, code)
       type(command_t), intent(in) :: command            !< its --observe is read
@@ -171,13 +184,15 @@ contains
       type(observations_t), intent(out) :: observations !< of the model, *OBSERVE first
       integer, intent(out) :: code                      !< STATUS_OK, STATUS_DECK or STATUS_USAGE
       type(message_t) :: error
-      type(string_t), allocatable :: texts(:)
+      type(string_t), allocatable :: texts(:), bounds(:)
       logical :: ok
 
       code = STATUS_OK
+      bounds = [string_t ::]
+      if (allocated(command%bound)) bounds = command%bound
       texts = [string_t ::]
       if (allocated(command%observe)) texts = command%observe
-      call read_observations(texts, model, observations, ok, error)
+      call read_observations(texts, model, observations, ok, error, bounds)
       if (ok) return
       code = merge(STATUS_DECK, STATUS_USAGE, error%line > 0)
       call print_message(error, command%json)

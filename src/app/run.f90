@@ -27,7 +27,7 @@ module atrito_run
    use atrito_frame_spool, only: begin_frames, end_frames, frame_spool_t
    use atrito_history, only: solve_history
    use atrito_kinds, only: ip, wp
-   use atrito_load_model, only: check_adaptable, load_model, prepare_observations, take_next_mesh
+   use atrito_load_model, only: check_adaptable, check_bounds, load_model, prepare_observations, take_next_mesh
    use atrito_mesh, only: signed_area
    use atrito_messages, only: count_messages
    use atrito_model, only: model_t
@@ -86,6 +86,7 @@ contains
       if (code == STATUS_OK) call prepare_observations(command, model, observations, code)
       if (code == STATUS_OK) then
          call check_adaptable(command, model, status)
+         call check_bounds(command, model, status)
          if (is_ok(status)) call check_folder(output_folder(command), status)
          call begin_frames(output_folder(command), frames)
          if (is_ok(status)) call begin_recorder(command, model, recorder, frames, status)
@@ -116,6 +117,7 @@ contains
                show%page%n = 0
                if (size(command%show) > 0) options%viewer => show
             end if
+            if (allocated(observations%quantities)) options%quantities = observations%quantities
             call solve_history(model, options, reporter, history, status, store, recorder, observations)
             if (adaptation%target <= 0.0_wp .or. .not. is_ok(status)) exit
             call take_next_mesh(command, history, model, observations, adaptation, n_printed, goes_on)

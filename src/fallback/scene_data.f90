@@ -15,6 +15,7 @@ module atrito_scene_data
    use atrito_held_points, only: straighten_held_points
    use atrito_kinds, only: ip, lp, wp
    use atrito_line_certificate, only: line_certificate_t
+   use atrito_linear_quantity, only: linear_quantity_t
    use atrito_memory, only: available_memory
    use atrito_model, only: model_t, nodal_values_t, step_t
    use atrito_nodal_loads, only: nodal_loads
@@ -73,6 +74,7 @@ module atrito_scene_data
       logical :: is_assembled = .false.                     !< its matrix is there, with the loads of now
       logical :: wants_element_errors = .false.             !< of what is printed
       integer :: proof = PROOF_OFF                          !< whether there is a bound of the error of what is printed
+      type(linear_quantity_t), allocatable :: quantities(:) !< that have bounds; not allocated: none
       real(wp), allocatable :: exchanged(:, :)              !< (2, n_nodes) for it, while the bodies are factored [L]
       real(wp), allocatable :: exchanged_by_points(:, :)    !< the same for another kind of tractions of contact [L]
       integer(ip) :: starts = 0                             !< of a search for other solutions
@@ -97,6 +99,7 @@ module atrito_scene_data
       logical :: element_errors = .false.                   !< the estimated error is kept element by element
       integer(ip) :: starts = 0                             !< of a search for other solutions; 0: as the deck asks
       integer :: proof = PROOF_OFF                          !< whether a bound of the error is wanted
+      type(linear_quantity_t), allocatable :: quantities(:) !< that have bounds; not allocated: none
       logical :: is_brief = .false.                         !< no attempt is made that costs more than the first one
       integer(ip) :: most_factorisations = huge(1_ip)       !< of the sparse form in an increment, before it is given up
       integer(lp) :: memory = huge(1_lp)                    !< bytes, of each process; what the machine has counts where it is less
@@ -207,6 +210,7 @@ contains
       data%starts = merge(asked%starts, data%step%controls%starts, asked%starts > 0)
       data%wants_element_errors = asked%element_errors
       data%proof = asked%proof
+      if (allocated(asked%quantities)) data%quantities = asked%quantities
       data%viewer => asked%viewer
       ! all bodies in one matrix: none is numbered for a profile of its own
       if (data%contact_form == CONTACT_SPARSE) data%solver_kind = SOLVER_SPARSE

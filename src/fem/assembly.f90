@@ -30,6 +30,7 @@ module atrito_assembly
       integer(ip), allocatable :: section_of(:)    !< (n_elements)
       real(wp) :: grain = 0.0_wp                   !< [L] what the last printed digits may make of equal elements; 0: nothing
       real(wp), allocatable :: heating(:)          !< (n_nodes) rise of the temperature; not allocated where nothing expands
+      real(wp), allocatable :: own_strain(:, :)    !< (3, n_elements) e11, e22, e12 without stress; not allocated: none
    end type fem_t
 
    !> All that a stiffness, and the strains at the points of an element, depend on. Coordinates are relative to the first node, so

@@ -5,7 +5,7 @@ module atrito_exchange_results
    use atrito_kinds, only: ip
    use atrito_results, only: results_t, contact_result_t, unsettled_t, balance_t, body_motion_t, rigid_result_t, joint_t, &
                              cut_force_t, extreme_t, iteration_t, observed_t, body_result_t, pair_scene_t, scene_t, uniqueness_t, &
-                             error_bound_t
+                             error_bound_t, quantity_bound_t
    use atrito_strings, only: string_t
    implicit none (type, external)
    private
@@ -61,6 +61,7 @@ contains
       call exchange_rigid(archive, results%rigid)
       call exchange_joint(archive, results%joints)
       call exchange_observed(archive, results%observed)
+      call exchange_bounded(archive, results%bounded)
       call exchange_cut(archive, results%cuts)
    end subroutine exchange_results
 
@@ -229,6 +230,26 @@ contains
          call exchange(archive, 'value', list(i)%value)
       end do
    end subroutine exchange_observed
+
+   subroutine exchange_bounded(archive, list)
+      type(archive_t), intent(inout) :: archive
+      type(quantity_bound_t), allocatable, intent(inout) :: list(:)
+      integer(ip) :: n, i
+
+      call exchange_length(archive, 'bounded', n, list)
+      if (archive%is_reading .and. n >= 0) allocate (list(n))
+      do i = 1, n
+         associate (bound => list(i))
+            call exchange_word(archive, 'name', bound%name)
+            call exchange(archive, 'exists', bound%exists)
+            call exchange(archive, 'is_certified', bound%is_certified)
+            call exchange(archive, 'is_of_states', bound%is_of_states)
+            call exchange(archive, 'least', bound%least)
+            call exchange(archive, 'most', bound%most)
+            call exchange_word(archive, 'why_not', bound%why_not)
+         end associate
+      end do
+   end subroutine exchange_bounded
 
    subroutine exchange_cut(archive, list)
       type(archive_t), intent(inout) :: archive

@@ -62,7 +62,8 @@ contains
 
    end subroutine find_classes
 
-   !> What is given of an element: displacements of its nodes less those of the first one, then temperatures where there are any.
+   !> What is given of an element: displacements of its nodes less those of the first one and those of its own strain, then
+   !> temperatures where there are any.
    pure subroutine given_of(fem, e, u, x, n)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: e
@@ -76,6 +77,14 @@ contains
          do k = 1, size(nodes, kind=ip)
             x(2*k - 1:2*k) = u(:, nodes(k)) - u(:, nodes(1))
          end do
+         if (allocated(fem%own_strain)) then        ! the displacements that it has are linear in the place
+            do k = 1, size(nodes, kind=ip)
+               associate (at => fem%mesh%x(:, nodes(k)) - fem%mesh%x(:, nodes(1)), strain => fem%own_strain(:, e))
+                  x(2*k - 1:2*k) = x(2*k - 1:2*k) - [strain(1)*at(1) + 0.5_wp*strain(3)*at(2), &
+                                                     0.5_wp*strain(3)*at(1) + strain(2)*at(2)]
+               end associate
+            end do
+         end if
          if (.not. allocated(fem%heating)) return
          do k = 1, size(nodes, kind=ip)
             x(n + k) = fem%heating(nodes(k))

@@ -12,7 +12,7 @@ module atrito_equilibrium_stress
    use atrito_star_sweeps, only: outlines_t, sweep_stars
    implicit none (type, external)
    private
-   public :: sum_stresses
+   public :: sum_stresses, sum_again
 
    integer, parameter :: MOST_SWEEPS = 12
    real(wp), parameter :: FEW_DIGITS = 1.0e-9_wp

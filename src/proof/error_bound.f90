@@ -41,7 +41,7 @@ module atrito_error_bound
    use atrito_thermal_loads, only: add_thermal_of, elastic_energy
    implicit none (type, external)
    private
-   public :: bound_error, ground_t, is_tried_twice, terms_t, sum_terms
+   public :: bound_error, ground_t, is_tried_twice, terms_t, sum_terms, check_hypotheses, take_contact, take_elements, LEAST_DIGITS
 
    !> What both kinds of tractions of contact have in common.
    type :: ground_t

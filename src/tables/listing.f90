@@ -24,8 +24,8 @@ module atrito_listing
    use atrito_rigid_report, only: describe_rigid_bodies
    use atrito_scene_report, only: describe_needs, describe_pairs
    use atrito_solver_report, only: describe_solver, describe_increments, describe_iterations
-   use atrito_summary, only: quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, measure_history, pair_count, &
-                             pair_name
+   use atrito_summary, only: bound_text, quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, measure_history, &
+                             pair_count, pair_name
    use atrito_patched_text, only: take_ends
    use atrito_table, only: table_t, clear_small, ZERO_SHARE
    use atrito_units, only: unit_names
@@ -123,6 +123,7 @@ contains
       call add_heading(page, '9  ERROR AND TIME')
       call add_entry(page, 'estimated error', number(results%error_estimate, DIGITS)//' % of the energy norm')
       call add_bound(page, results%error_bound)
+      if (allocated(results%bounded)) call add_bounded(page, results)
       call add_times(page)
    end subroutine add_end
 
@@ -143,6 +144,26 @@ contains
       if (len_trim(bound%why_not) > 0) call add_entry(page, trim(merge('not certified', 'no bound     ', bound%exists)), &
                                                       trim(bound%why_not))
    end subroutine add_bound
+
+   !> The bounds of quantities, and what is proved of what.
+   subroutine add_bounded(page, results)
+      type(page_t), intent(inout) :: page
+      type(results_t), intent(in) :: results
+      integer :: i
+
+      do i = 1, size(results%bounded)
+         call add_entry(page, trim(results%bounded(i)%name), bound_text(results%bounded(i)))
+      end do
+      if (.not. any(results%bounded%exists)) return
+      if (any(results%bounded%is_of_states)) then
+         call add_paragraph(page, 'The bounds are proved for the exact solution of the problem with the contact states held: '// &
+                            'faces that are closed at all their nodes are joined along the normal, those that stick along '// &
+                            'the tangent, too, all others have the tractions of this run. That the exact solution has '// &
+                            'these states is not proved.', 6)
+      else
+         call add_paragraph(page, 'The bounds are proved for the exact solution: there is no contact.', 6)
+      end if
+   end subroutine add_bounded
 
    pure function frame_name(results) result(text)
       type(results_t), intent(in) :: results

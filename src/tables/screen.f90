@@ -7,7 +7,7 @@ module atrito_screen
    use atrito_system, only: peak_memory
    use atrito_timers, only: phase_time_t, get_phases
    use atrito_model, only: model_t
-   use atrito_results, only: contact_result_t, results_t, history_t, observed_t, scene_t, has_forces, last_frame
+   use atrito_results, only: contact_result_t, results_t, history_t, observed_t, quantity_bound_t, scene_t, has_forces, last_frame
    use atrito_increments, only: list_increments, has_history, increment_name, ending_text
    use atrito_extreme_report, only: add_extremes
    use atrito_model_report, only: describe_counts, describe_instances, describe_steps, is_history
@@ -18,8 +18,8 @@ module atrito_screen
                           plural
    use atrito_plot_files, only: plot_folder, told_pictures
    use atrito_plot_files, only: REPORT_NAME
-   use atrito_summary, only: error_text, large_text, pair_summary_t, summarise_pair, states_text, closed_word, body_count, &
-                             pair_count, pair_name, uniqueness_text
+   use atrito_summary, only: bound_text, error_text, large_text, pair_summary_t, summarise_pair, states_text, closed_word, &
+                             body_count, pair_count, pair_name, uniqueness_text
    use atrito_table, only: TAB_ENDING, CSV_ENDING
    implicit none (type, external)
    private
@@ -67,7 +67,8 @@ contains
          call add_verdict(page, last, ending_text(history))
          call add_sizes(page, model, last)
          if (has_history(model, history)) call add_item(page, 'history', history_text(model, history))
-         if (allocated(last%observed)) call add_observed(page, last%observed)
+         if (allocated(last%observed)) call add_observed(page, without_bounds(last))
+         if (allocated(last%bounded)) call add_bounded(page, last%bounded)
          ! Lines of pictures, field files and the report.
          extra_lines = merge(1, 0, present(pictures))
          do i = 1, size(files)
@@ -129,6 +130,28 @@ contains
       end do
       call add_item(page, trim(merge('observed', '        ', n == 0)), text)
    end subroutine add_observed
+
+   !> What is observed, but the bounds behind it, which have lines of their own.
+   pure function without_bounds(results) result(observed)
+      type(results_t), intent(in) :: results
+      type(observed_t), allocatable :: observed(:)
+
+      observed = results%observed
+      if (allocated(results%bounded)) observed = observed(:size(observed) - 2*size(results%bounded))
+   end function without_bounds
+
+   !> A line for each of the first bounds, and what they are bounds of.
+   subroutine add_bounded(page, bounded)
+      type(page_t), intent(inout) :: page
+      type(quantity_bound_t), intent(in) :: bounded(:)
+      integer :: i, n
+
+      n = min(size(bounded), MOST_OBSERVED)
+      do i = 1, n
+         call add_item(page, trim(merge('bounded', '       ', i == 1)), trim(bounded(i)%name)//' '//bound_text(bounded(i)))
+      end do
+      if (n < size(bounded)) call add_item(page, '', 'and '//to_text(size(bounded, kind=ip) - n)//' more in the listing')
+   end subroutine add_bounded
 
    subroutine add_verdict(page, results, ending)
       type(page_t), intent(inout) :: page

@@ -5,14 +5,14 @@ module atrito_summary
    use atrito_page, only: number
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_model, only: model_t
-   use atrito_results, only: results_t, history_t, scene_t, contact_result_t, error_bound_t, uniqueness_t, view_frame, &
-                             POINT_OPEN, POINT_STICK, POINT_SLIP
+   use atrito_results, only: results_t, history_t, scene_t, contact_result_t, error_bound_t, quantity_bound_t, uniqueness_t, &
+                             view_frame, POINT_OPEN, POINT_STICK, POINT_SLIP
    use atrito_threads, only: is_shared
    implicit none (type, external)
    private
    public :: pair_summary_t, quantity_t, scales_t
    public :: summarise_pair, error_text, uniqueness_text, pair_quantities, step_quantities, quantity_names, states_text, closed_word
-   public :: all_step_quantities, large_text, measure_history
+   public :: all_step_quantities, bound_text, large_text, measure_history
    public :: pair_count, pair_name, body_count
 
    !> What the contact tractions of one pair come to.
@@ -194,6 +194,22 @@ contains
          end if
       end associate
    end function error_text
+
+   !> `-0.01234 to -0.01231 (certified)`: between what a quantity is, and of which problem this is proved.
+   pure function bound_text(bound) result(text)
+      type(quantity_bound_t), intent(in) :: bound
+      character(len=:), allocatable :: text
+      integer, parameter :: DIGITS = 6
+
+      if (.not. bound%exists) then
+         text = 'has no bound: '//trim(bound%why_not)
+         return
+      end if
+      text = number(bound%least, DIGITS)//' to '//number(bound%most, DIGITS)//' ('// &
+             trim(merge('certified    ', 'not certified', bound%is_certified))
+      if (bound%is_of_states) text = text//', contact states held'
+      text = text//')'
+   end function bound_text
 
    !> The bound of the error, whether it is certified, and of its square the shares of the bodies and of both laws of contact.
    pure function bound_quantities(bound) result(list)

@@ -5,15 +5,17 @@ module atrito_observations
    use atrito_expression_names, only: is_name
    use atrito_expressions, only: evaluate_expression, expression_fault_t, list_calls
    use atrito_kinds, only: ip, is_nan, wp
+   use atrito_linear_quantity, only: linear_quantity_t
    use atrito_mesh, only: mesh_t
    use atrito_messages, only: add_warning, message_t, SEVERITY_ERROR
    use atrito_model, only: model_t, observed_line_t
    use atrito_observed_names, only: field_names, find_term, observable_names
+   use atrito_observed_quantities, only: find_quantity
    use atrito_observed_terms, only: is_of_strain, is_of_stress, term_t, value_of_term, TERM_STEP
    use atrito_observer, only: observer_t
    use atrito_place_fields, only: nodal_strains
    use atrito_results, only: history_row_t, observed_t, results_t
-   use atrito_strings, only: nearest_names, same_name, string_t, to_text
+   use atrito_strings, only: append_string, nearest_names, same_name, string_t, to_text
    use atrito_summary, only: all_step_quantities, quantity_t
    implicit none (type, external)
    private
@@ -30,12 +32,12 @@ module atrito_observations
 
    !> All expressions of a run (observer_t).
    type, extends(observer_t) :: observations_t
-      private
-      type(observation_t), allocatable :: list(:)    !< of the deck, then of --observe
-      type(string_t), allocatable :: names(:)        !< parameters of the deck
-      real(wp), allocatable :: values(:)             !< of the parameters
-      logical :: has_own_degree = .false.            !< one of them is deg
-      type(mesh_t), allocatable :: mesh              !< where strains are asked for
+      type(linear_quantity_t), allocatable :: quantities(:) !< of --bound; not allocated: none
+      type(observation_t), allocatable, private :: list(:)    !< of the deck, then of --observe
+      type(string_t), allocatable, private :: names(:)        !< parameters of the deck
+      real(wp), allocatable, private :: values(:)             !< of the parameters
+      logical, private :: has_own_degree = .false.            !< one of them is deg
+      type(mesh_t), allocatable, private :: mesh              !< where strains are asked for
    contains
       procedure :: observe => evaluate_all
    end type observations_t
@@ -48,21 +50,26 @@ module atrito_observations
                                                                       'contact_points', 'open', 'stick', 'slip', 'code', 'excess', &
                                                                                                        'displacement', 'iterations']
 
+   !> What stands behind the names of bounds.
+   character(len=*), parameter :: FROM = '_least', TO = '_most'
+
 contains
 
    !> Reads `NAME=EXPRESSION`, several: those of the deck, then the texts of --observe. is_ok is false where one is
-   !> wrong, and error says how.
-   subroutine read_observations(texts, model, observations, is_ok, error)
+   !> wrong, and error says how. bounds: the names of those that bounds are asked for.
+   subroutine read_observations(texts, model, observations, is_ok, error, bounds)
       type(string_t), intent(in) :: texts(:)            !< of --observe
       type(model_t), intent(in) :: model                !< whose names the expressions use
       type(observations_t), intent(out) :: observations !< read, for this model
       logical, intent(out) :: is_ok                     !< no expression is wrong
       type(message_t), intent(out) :: error             !< text not allocated: there is none
+      type(string_t), intent(in), optional :: bounds(:) !< names, of --bound; not present: none
       integer :: i, k, n
 
       is_ok = .true.
       n = size(model%observed)
       observations%is_there = n + size(texts) > 0
+      if (present(bounds) .and. .not. observations%is_there) call find_bounds(model, bounds, observations, is_ok, error)
       if (.not. observations%is_there) return
       allocate (observations%list(n + size(texts)), observations%names(size(model%parameters)))
       do i = 1, size(model%parameters)
@@ -86,7 +93,72 @@ contains
             end do
          end associate
       end do
+      if (present(bounds)) call find_bounds(model, bounds, observations, is_ok, error)
    end subroutine read_observations
+
+   !> The quantities of --bound: observed ones by their names. What is wrong is a matter of the command line.
+   subroutine find_bounds(model, bounds, observations, is_ok, error)
+      type(model_t), intent(in) :: model
+      type(string_t), intent(in) :: bounds(:)
+      type(observations_t), intent(inout) :: observations
+      logical, intent(inout) :: is_ok
+      type(message_t), intent(inout) :: error
+      type(string_t), allocatable :: observed(:)
+      integer :: b, i
+
+      if (size(bounds) == 0) return
+      if (.not. allocated(observations%list)) allocate (observations%list(0))
+      allocate (observed(0))
+      do i = 1, size(observations%list)
+         call append_string(observed, observations%list(i)%name)
+      end do
+      allocate (observations%quantities(size(bounds)))
+      do b = 1, size(bounds)
+         do i = 1, size(observed)
+            if (same_name(observed(i)%s, bounds(b)%s)) exit
+         end do
+         if (i > size(observed)) then
+            error%text = 'nothing of this name is observed'
+            error%expected = 'the name of a quantity of --observe or *OBSERVE'
+            error%nearest = nearest_names(bounds(b)%s, observed, MOST_NEAREST)
+         else
+            observations%quantities(b)%name = observed(i)%s
+            call find_bound(model, observations, i, observed, observations%quantities(b), error)
+         end if
+         is_ok = .not. allocated(error%text)
+         if (is_ok) cycle
+         error%severity = SEVERITY_ERROR
+         error%id = 'E-OBSERVE'
+         error%file = 'atrito'
+         error%text = '--bound '//bounds(b)%s//': '//error%text
+         if (error%column > 0) error%text = error%text//', column '//to_text(error%column)
+         if (error%column > 0) error%source = observations%list(i)%text
+         return
+      end do
+   end subroutine find_bounds
+
+   !> The i-th one as a linear quantity. error%text: it is none, or its columns have no names.
+   subroutine find_bound(model, observations, i, observed, quantity, error)
+      type(model_t), intent(in) :: model
+      type(observations_t), intent(in) :: observations
+      integer, intent(in) :: i
+      type(string_t), intent(in) :: observed(:)        !< names of all
+      type(linear_quantity_t), intent(inout) :: quantity
+      type(message_t), intent(inout) :: error
+      type(observed_t) :: longest
+
+      associate (one => observations%list(i))
+         call find_quantity(model, one%text, observations%names, observations%values, observations%has_own_degree, one%calls, &
+                            one%terms, quantity, error)
+         if (allocated(error%text)) return
+         if (len(one%name) + len(FROM) > len(longest%name)) error%text = 'its name is too long'
+         if (is_one_of(one%name//FROM, observed) .or. is_one_of(one%name//TO, observed)) then
+            error%text = 'its bounds have the name of another quantity that is observed'
+         end if
+         if (allocated(error%text)) error%expected = 'columns '//one%name//FROM//' and '//one%name//TO//', each of at most '// &
+                                                     to_text(len(longest%name, kind=ip))//' characters'
+      end associate
+   end subroutine find_bound
 
    !> NAME of `NAME=EXPRESSION`.
    pure function observation_name(text) result(name)
@@ -245,13 +317,26 @@ contains
       type(history_row_t), intent(in) :: rows(:)     !< of the history so far
       type(observed_t), allocatable :: found(:)
       real(wp), allocatable :: strain(:, :)
-      integer :: i
+      integer :: i, n, n_bounds
 
       if (allocated(self%mesh)) call nodal_strains(self%mesh, results%u, strain)
-      allocate (found(size(self%list)))
-      do i = 1, size(found)
+      n = size(self%list)
+      n_bounds = 0
+      if (allocated(self%quantities)) n_bounds = size(self%quantities)
+      allocate (found(n + 2*n_bounds))
+      do i = 1, n
          found(i)%name = self%list(i)%name
          call evaluate(self, i, results, rows, strain, found(i)%value)
+      end do
+      do i = 1, n_bounds
+         associate (least => found(n + 2*i - 1), largest => found(n + 2*i))
+            least = observed_t(self%quantities(i)%name//FROM, ieee_value(1.0_wp, ieee_quiet_nan))
+            largest = observed_t(self%quantities(i)%name//TO, ieee_value(1.0_wp, ieee_quiet_nan))
+            if (.not. allocated(results%bounded)) cycle
+            if (.not. results%bounded(i)%exists) cycle
+            least%value = results%bounded(i)%least
+            largest%value = results%bounded(i)%most
+         end associate
       end do
       call move_alloc(found, results%observed)
    end subroutine evaluate_all

@@ -19,7 +19,7 @@ module atrito_observed_places
    use atrito_strings, only: string_t, append_string, same_name, to_text
    implicit none (type, external)
    private
-   public :: find_place, find_point, has_support, has_element
+   public :: find_place, find_point, has_support, has_element, index_of_surface
 
    integer, parameter :: DIGITS_TOLD = 6              !< of coordinates in messages
    character(len=*), parameter :: A_PLACE = 'a node number, a node set, an element set or a surface of elements'
@@ -177,6 +177,7 @@ contains
                        //to_text(maxval(model%mesh%node_id(:model%mesh%n_nodes)))//')'
    end subroutine find_numbered
 
+   !> The place of a surface among those of the model; 0: there is none of the name.
    pure integer(ip) function index_of_surface(model, name) result(i)
       type(model_t), intent(in) :: model
       character(len=*), intent(in) :: name

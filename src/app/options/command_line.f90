@@ -39,6 +39,7 @@ module atrito_command_line
       character(len=4) :: proof = 'auto'            !< one of the words of --proof
       character(len=4) :: share = 'auto'            !< one of the words of --share
       type(string_t), allocatable :: observe(:)     !< NAME=EXPRESSION of --observe, in their order
+      type(string_t), allocatable :: bound(:)       !< names of --bound
       type(string_t), allocatable :: show(:)        !< views of --show, in their order
       type(string_t), allocatable :: vary(:)        !< NAME=v1,v2,... of --vary, in their order; of a limit NAME=a:b
       real(wp) :: limit_tolerance = 1.0e-6_wp       !< of a limit
@@ -100,7 +101,7 @@ contains
       integer :: i
 
       allocate (command%settings(0), command%observe(0), command%show(0), command%vary(0), command%names(0), command%elements(0))
-      allocate (command%references(0))
+      allocate (command%references(0), command%bound(0))
       call sort_arguments(arguments, names, given, error)
       ok = .not. allocated(error%text)
       if (.not. ok) return
@@ -299,6 +300,8 @@ contains
       case ('--observe')
          call append_string(command%observe, given%value)
          ok = index(given%value, '=') > 1
+      case ('--bound')
+         call take_names(given%value, command%bound, ok)
       case ('--show')
          call append_string(command%show, given%value)
          ok = is_view(given%value)
@@ -419,6 +422,25 @@ contains
          first = last + 2
       end do
    end subroutine take_elements
+
+   !> Names with commas between them, behind those before; each once.
+   pure subroutine take_names(value, names, ok)
+      character(len=*), intent(in) :: value
+      type(string_t), allocatable, intent(inout) :: names(:)
+      logical, intent(out) :: ok
+      character(len=:), allocatable :: name
+      integer :: first, last, i
+
+      ok = .true.
+      first = 1
+      do while (first <= len(value) + 1 .and. ok)
+         last = first + index(value(first:)//',', ',') - 2
+         name = trim(adjustl(value(first:last)))
+         ok = len(name) > 0 .and. all([(lower_case(names(i)%s) /= lower_case(name), i=1, size(names))])
+         call append_string(names, name)
+         first = last + 2
+      end do
+   end subroutine take_names
 
    subroutine take_integer(text, least, most, value, ok)
       character(len=*), intent(in) :: text

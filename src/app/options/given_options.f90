@@ -29,6 +29,9 @@ contains
             call add_option('--observe', command%observe(i)%s, text)
          end do
       end if
+      if (allocated(command%bound)) then
+         if (size(command%bound) > 0) call add_option('--bound', join(command%bound, ','), text)
+      end if
       if (command%digits /= DEFAULT_DIGITS) call add_option('--digits', to_text(command%digits), text)
    end subroutine options_of_run
 

@@ -2,13 +2,14 @@
 module atrito_results
    use atrito_kinds, only: ip, lp, wp
    use atrito_iteration, only: iteration_t
+   use atrito_linear_quantity, only: quantity_bound_t
    use atrito_strings, only: string_t
    implicit none (type, external)
    private
    public :: results_t, contact_result_t, iteration_t, body_result_t, scene_t, pair_scene_t, balance_t, unsettled_t
    public :: body_motion_t, rigid_result_t, joint_t, cut_force_t, extreme_t, history_t, history_row_t, ending_t, last_frame
-   public :: observed_t, observed_list_t, uniqueness_t, error_bound_t, frame_numbers_t, frame_store_t, put_aside, view_frame, &
-             has_forces
+   public :: observed_t, observed_list_t, quantity_bound_t, uniqueness_t, error_bound_t, frame_numbers_t, frame_store_t, &
+             put_aside, view_frame, has_forces
    public :: POINT_OPEN, POINT_STICK, POINT_SLIP, EXTREME_NAMES
 
    integer(ip), parameter :: POINT_OPEN = 0, POINT_STICK = 1, POINT_SLIP = 2   !< column status of contact.tab
@@ -234,6 +235,7 @@ module atrito_results
       type(rigid_result_t), allocatable :: rigid(:) !< rigid surfaces with a reference node; not allocated: there are none
       type(joint_t), allocatable :: joints(:)       !< by pair, then along s
       type(observed_t), allocatable :: observed(:)  !< not allocated: nothing is
+      type(quantity_bound_t), allocatable :: bounded(:) !< what is bounded of it; not allocated: nothing is
       type(cut_force_t), allocatable :: cuts(:)     !< when asked for
    end type results_t
 
