@@ -9,7 +9,7 @@ module atrito_equilibrium_stress
    use atrito_kinds, only: ip, wp
    use atrito_mesh_sides, only: chains_t, mesh_sides_t
    use atrito_proof_loads, only: proof_loads_t
-   use atrito_star_sweeps, only: outlines_t, sweep_stars
+   use atrito_star_sweeps, only: outlines_t, pack_energy, packed_size, sweep_stars
    implicit none (type, external)
    private
    public :: sum_stresses
@@ -48,8 +48,8 @@ contains
       most = maxval(outline_size(fem%mesh%shape(:fem%mesh%n_elements), degree))
       cut = pack([(c, c=1, fem%mesh%n_elements)], [(is_cut(cuts, sides, c), c=1, fem%mesh%n_elements)])
       associate (n => fem%mesh%n_elements)
-         allocate (outlines%h(most, most, classes%n + size(cut)), outlines%a(most, n), outlines%slope(most, n), &
-                   outlines%energy(n), source=0.0_wp)
+         allocate (outlines%h(packed_size(most), classes%n), outlines%of_cut(most, most, size(cut)), outlines%a(most, n), &
+                   outlines%slope(most, n), outlines%energy(n), source=0.0_wp)
       end associate
       of_stresses = 0.0_wp
       most_open = 0.0_wp
@@ -82,7 +82,7 @@ contains
          integer(ip) :: i, j
 
          call make_class_energy(fem, loads, u, classes%member(classes%first(c):classes%first(c + 1) - 1), degree, energy)
-         outlines%h(:energy%n, :energy%n, c) = energy%slopes(:, :energy%n)
+         call pack_energy(energy%slopes(:energy%n, :energy%n), c, outlines)
          if (.not. allocated(rows)) allocate (rows(energy%n_rows))
          if (size(rows) /= energy%n_rows) rows = spread(0.0_wp, 1, energy%n_rows)
          do i = classes%first(c), classes%first(c + 1) - 1
@@ -95,12 +95,12 @@ contains
                call take_given(fem, loads, u, e, energy, x)
                call given_rows(energy, x(:energy%n_given), rows)
                do j = 1, energy%n_given
-                  outlines%slope(:n, e) = outlines%slope(:n, e) + energy%slopes(:, n + j)*x(j)
+                  outlines%slope(:n, e) = outlines%slope(:n, e) + energy%slopes(:n, n + j)*x(j)
                end do
                outlines%energy(e) = dot_product(rows, rows) + dot_product(outlines%a(:n, e), outlines%slope(:n, e))
                of_stresses = of_stresses + dot_product(rows, rows)
                do j = 1, n
-                  outlines%slope(:n, e) = outlines%slope(:n, e) + energy%slopes(:, j)*outlines%a(j, e)
+                  outlines%slope(:n, e) = outlines%slope(:n, e) + energy%slopes(:n, j)*outlines%a(j, e)
                end do
                outlines%energy(e) = outlines%energy(e) + dot_product(outlines%a(:n, e), outlines%slope(:n, e))
             end associate
@@ -170,8 +170,8 @@ contains
       associate (n => outline_size(fem%mesh%shape(e), outlines%degree))
          call given_with_loads(fem, loads, u, e, x, n_x)
          outlines%class_of(e) = class
-         call cut_difference(fem, sides, cuts, e, x(:n_x), outlines%a(:n, e), outlines%energy(e), outlines%h(:n, :n, class), &
-                             outlines%slope(:n, e))
+         call cut_difference(fem, sides, cuts, e, x(:n_x), outlines%a(:n, e), outlines%energy(e), &
+                             outlines%of_cut(:n, :n, class - size(outlines%h, 2)), outlines%slope(:n, e))
       end associate
    end subroutine begin_cut
 

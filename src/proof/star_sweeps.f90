@@ -16,13 +16,18 @@ module atrito_star_sweeps
    use atrito_mesh_sides, only: mesh_sides_t, chains_t
    implicit none (type, external)
    private
-   public :: outlines_t, sweep_stars, solve_least
+   public :: outlines_t, sweep_stars, solve_least, pack_energy, whole_energy, packed_size
 
    !> Elements by their outlines: E = a'H a + 2 g'a + c of each, elements of one class with one H.
+   !>
+   !> Linear functions phi make no stress: H times their outlines is 0. So what belongs to phi and its gradient at the first corner
+   !> follows from the rest, and the lower triangle of the rest is all that is kept, half of H. Where a side is cut it keeps its
+   !> tractions whatever the numbers are, and H is kept whole.
    type :: outlines_t
       integer(ip) :: degree = 0                     !< k
       integer(ip), allocatable :: class_of(:)       !< (n_elements)
-      real(wp), allocatable :: h(:, :, :)           !< (numbers, numbers, classes) [1/F] and so on
+      real(wp), allocatable :: h(:, :)              !< (packed_size, classes) [1/F] and so on
+      real(wp), allocatable :: of_cut(:, :, :)      !< (numbers, numbers, classes behind these) H of elements that are cut
       real(wp), allocatable :: a(:, :)              !< (numbers, n_elements)
       real(wp), allocatable :: slope(:, :)          !< (numbers, n_elements) H a + g
       real(wp), allocatable :: energy(:)            !< (n_elements) E [F L]
@@ -31,6 +36,7 @@ module atrito_star_sweeps
    !> The system of a star. It depends on the shapes of its elements alone: in a regular mesh the next star has the same one.
    type :: star_t
       integer(ip) :: n = 0, n_free = 0              !< numbers, and those that are free
+      integer(ip) :: n_elements = 0                 !< there is room for more, as for more numbers
       integer(ip), allocatable :: class_of(:), corner(:) !< (elements)
       logical, allocatable :: is_first(:, :)        !< (2, elements) of the side before it and of the one behind it
       logical, allocatable :: is_held(:)            !< (n)
@@ -38,6 +44,7 @@ module atrito_star_sweeps
       integer(ip), allocatable :: at(:, :)          !< the same among the free ones of the star; 0: held
       real(wp), allocatable :: sign_of(:, :)
       real(wp), allocatable :: factor(:, :)         !< (n_free, n_free)
+      real(wp), allocatable :: h(:, :, :)           !< (numbers, numbers, elements) of outlines
    end type star_t
 
    real(wp), parameter :: ROUND_OFF = 1.0e-11_wp    !< a pivot below this share of its diagonal is none
@@ -57,6 +64,7 @@ contains
       integer(ip) :: i
 
       gain = 0.0_wp
+      call make_room(maxval(chains%first(2:chains%n + 1) - chains%first(:chains%n)), outlines, star)
       do i = 1, chains%n
          associate (first => chains%first(i), last => chains%first(i + 1) - 1)
             call take_star(mesh, sides, known, chains%element(first:last), chains%corner(first:last), &
@@ -65,6 +73,95 @@ contains
          end associate
       end do
    end subroutine sweep_stars
+
+   !> Room for the largest star.
+   pure subroutine make_room(most, outlines, star)
+      integer(ip), intent(in) :: most               !< elements
+      type(outlines_t), intent(in) :: outlines
+      type(star_t), intent(inout) :: star
+      integer(ip) :: m
+
+      m = 3 + 2*(2*outlines%degree - 1)
+      associate (n => 3 + (2*outlines%degree - 1)*(most + 1), numbers => size(outlines%a, 1))
+         allocate (star%class_of(most), star%corner(most), star%is_first(2, most), star%is_held(n), star%place(m, most), &
+                   star%at(m, most), star%sign_of(m, most), star%factor(n, n))
+         allocate (star%h(numbers, numbers, most), source=0.0_wp)
+      end associate
+   end subroutine make_room
+
+   !> Numbers of H that are kept.
+   pure integer(ip) function packed_size(n)
+      integer(ip), intent(in) :: n                  !< numbers of the outline
+
+      packed_size = ((n - 3)*(n - 2))/2
+   end function packed_size
+
+   !> Keeps H of a class.
+   pure subroutine pack_energy(h, class, outlines)
+      real(wp), intent(in) :: h(:, :)
+      integer(ip), intent(in) :: class
+      type(outlines_t), intent(inout) :: outlines
+      integer(ip) :: j, l, n
+
+      n = size(h, 1, kind=ip)
+      l = 0
+      do j = 4, n
+         outlines%h(l + 1:l + n - j + 1, class) = h(j:, j)
+         l = l + n - j + 1
+      end do
+   end subroutine pack_energy
+
+   !> H of an element. With z the outlines of phi = 1, x_1, x_2 (less the first corner), which at the first corner are 1 each, and H z
+   !> = 0,
+   !>
+   !>     H(:, first) = -H(:, others) z(others).
+   pure subroutine whole_energy(mesh, outlines, e, h)
+      type(mesh_t), intent(in) :: mesh
+      type(outlines_t), intent(in) :: outlines
+      integer(ip), intent(in) :: e
+      real(wp), intent(inout) :: h(:, :)
+      real(wp) :: z(size(h, 1), 3), x(2), side(2)
+      integer(ip) :: i, j, l, n, n_corners, c
+
+      if (outlines%class_of(e) > size(outlines%h, 2)) then
+         h = outlines%of_cut(:, :, outlines%class_of(e) - size(outlines%h, 2))
+         return
+      end if
+      n_corners = CORNERS_OF(mesh%shape(e))
+      n = n_corners*(2*outlines%degree + 2)
+      associate (packed => outlines%h(:, outlines%class_of(e)), nodes => mesh%nodes(:n_corners, e))
+         l = 0
+         do j = 4, n
+            h(j:n, j) = packed(l + 1:l + n - j + 1)
+            h(j, j + 1:n) = packed(l + 2:l + n - j + 1)
+            l = l + n - j + 1
+         end do
+         do i = 1, n_corners
+            x = mesh%x(:, nodes(i)) - mesh%x(:, nodes(1))
+            side = mesh%x(:, nodes(1 + mod(i, n_corners))) - mesh%x(:, nodes(i))
+            z(3*i - 2, :) = [1.0_wp, x(1), x(2)]
+            z(3*i - 1, :) = [0.0_wp, 1.0_wp, 0.0_wp]
+            z(3*i, :) = [0.0_wp, 0.0_wp, 1.0_wp]
+            l = side_place(n_corners, outlines%degree, i)
+            do c = l, l + outlines%degree - 1
+               z(c, :) = [0.0_wp, side(2), -side(1)]/norm2(side)
+            end do
+            if (outlines%degree == 2) z(l + 2, :) = [1.0_wp, x(1) + 0.5_wp*side(1), x(2) + 0.5_wp*side(2)]
+         end do
+      end associate
+      do c = 1, 3
+         h(4:n, c) = 0.0_wp
+         do j = 4, n
+            h(4:n, c) = h(4:n, c) - h(4:n, j)*z(j, c)
+         end do
+         h(c, 4:n) = h(4:n, c)
+      end do
+      do c = 1, 3
+         do i = 1, 3
+            h(i, c) = -dot_product(h(4:n, i), z(4:n, c))
+         end do
+      end do
+   end subroutine whole_energy
 
    !> The least energy over the numbers of one star.
    !>
@@ -96,7 +193,7 @@ contains
       call solve_factored(star%n_free, star%factor, step)
       gain = gain + dot_product(slope, step)
       do j = 1, size(element, kind=ip)
-         call move_outline(star%place(:, j), star%at(:, j), star%sign_of(:, j), step, element(j), outlines)
+         call move_outline(star, j, step, element(j), outlines)
       end do
    end subroutine improve_star
 
@@ -120,16 +217,20 @@ contains
          is_first(1, j) = sides%of_element(corner(j), element(j)) > 0
          is_first(2, j) = sides%of_element(corner_before(mesh, element(j), corner(j)), element(j)) > 0
       end do
-      is_same = star%n == n
-      if (is_same) is_same = size(star%corner) == n_elements
-      if (is_same) is_same = all(star%class_of == outlines%class_of(element) .and. star%corner == corner) .and. &
-                             all(star%is_first .eqv. is_first) .and. all(star%is_held .eqv. is_held(:n))
+      is_same = star%n == n .and. star%n_elements == n_elements
+      do j = 1, n_elements
+         if (.not. is_same) exit
+         is_same = star%class_of(j) == outlines%class_of(element(j)) .and. star%corner(j) == corner(j) .and. &
+                   all(star%is_first(:, j) .eqv. is_first(:, j))
+      end do
+      if (is_same) is_same = all(star%is_held(:n) .eqv. is_held(:n))
       if (is_same) return
       star%n = n
-      star%class_of = outlines%class_of(element)
-      star%corner = corner
-      star%is_first = is_first
-      star%is_held = is_held(:n)
+      star%n_elements = n_elements
+      star%class_of(:n_elements) = outlines%class_of(element)
+      star%corner(:n_elements) = corner
+      star%is_first(:, :n_elements) = is_first
+      star%is_held(:n) = is_held(:n)
       call make_star(mesh, element, side(0) == side(n_elements), outlines, star)
    end subroutine take_star
 
@@ -142,7 +243,7 @@ contains
       type(star_t), intent(inout) :: star           !< with what it is known by
       integer(ip) :: j, m, r, s, free(star%n)
 
-      m = 3 + 2*(2*outlines%degree - 1)
+      m = size(star%place, 1, kind=ip)
       star%n_free = 0
       do j = 1, star%n
          free(j) = 0
@@ -150,13 +251,11 @@ contains
          star%n_free = star%n_free + 1
          free(j) = star%n_free
       end do
-      if (allocated(star%place)) deallocate (star%place, star%at, star%sign_of, star%factor)
-      allocate (star%place(m, size(element)), star%at(m, size(element)), star%sign_of(m, size(element)))
-      allocate (star%factor(star%n_free, star%n_free), source=0.0_wp)
+      star%factor(:star%n_free, :star%n_free) = 0.0_wp
       do j = 1, size(element, kind=ip)
          call find_places(j)
-         associate (h => outlines%h(:, :, star%class_of(j)), at => star%at(:, j), place => star%place(:, j), &
-                    sign_of => star%sign_of(:, j))
+         call whole_energy(mesh, outlines, element(j), star%h(:, :, j))
+         associate (h => star%h(:, :, j), at => star%at(:, j), place => star%place(:, j), sign_of => star%sign_of(:, j))
             do s = 1, m
                if (at(s) == 0) cycle
                do r = 1, m
@@ -213,31 +312,32 @@ contains
       corner_before = merge(CORNERS_OF(mesh%shape(e)), corner - 1, corner == 1)
    end function corner_before
 
-   !> The step of a star in the numbers of one element. E changes by the step times the slopes before and behind it.
-   subroutine move_outline(place, at, sign_of, step, e, outlines)
-      integer(ip), intent(in) :: place(:), at(:)    !< among those of the element, among the free ones of the star; 0: held
-      real(wp), intent(in) :: sign_of(:), step(:)
+   !> The step of a star in the numbers of its element j. E changes by the step times the slopes before and behind it.
+   pure subroutine move_outline(star, j, step, e, outlines)
+      type(star_t), intent(in) :: star
+      integer(ip), intent(in) :: j
+      real(wp), intent(in) :: step(:)
       integer(ip), intent(in) :: e
       type(outlines_t), intent(inout) :: outlines
-      real(wp) :: of_number(9), change
-      integer(ip) :: s
+      real(wp) :: of_number, slope(size(star%h, 1)), change
+      integer(ip) :: s, n
 
-      associate (h => outlines%h(:, :, outlines%class_of(e)), slope => outlines%slope(:, e))
-         change = 0.0_wp
-         do s = 1, size(at, kind=ip)
-            of_number(s) = 0.0_wp
-            if (at(s) > 0) of_number(s) = sign_of(s)*step(at(s))
-            change = change + of_number(s)*slope(place(s))
-         end do
-         do s = 1, size(at, kind=ip)
-            if (at(s) == 0) cycle
-            outlines%a(place(s), e) = outlines%a(place(s), e) + of_number(s)
-            slope = slope + h(:, place(s))*of_number(s)
-         end do
-         do s = 1, size(at, kind=ip)
-            change = change + of_number(s)*slope(place(s))
-         end do
-      end associate
+      n = size(slope, kind=ip)
+      slope = 0.0_wp
+      change = 0.0_wp
+      do s = 1, size(star%at, 1, kind=ip)
+         if (star%at(s, j) == 0) cycle
+         of_number = star%sign_of(s, j)*step(star%at(s, j))
+         associate (place => star%place(s, j))
+            outlines%a(place, e) = outlines%a(place, e) + of_number
+            change = change + 2*of_number*outlines%slope(place, e)
+            slope(:n) = slope(:n) + star%h(:n, place, j)*of_number
+         end associate
+      end do
+      do s = 1, size(star%at, 1, kind=ip)
+         if (star%at(s, j) > 0) change = change + star%sign_of(s, j)*step(star%at(s, j))*slope(star%place(s, j))
+      end do
+      outlines%slope(:, e) = outlines%slope(:, e) + slope
       outlines%energy(e) = outlines%energy(e) + change
    end subroutine move_outline
 
