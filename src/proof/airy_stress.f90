@@ -77,9 +77,9 @@ contains
       real(wp), intent(in) :: corner(:, :)          !< (2, 3 or 4) counter-clockwise [L]
       integer(ip), intent(in) :: degree             !< k: 1, 2
       type(macro_t), intent(inout) :: macro         !< what is allocated serves again
-      real(wp) :: along(numbers_of(size(corner, 2), degree), 0:MOST_DEGREE + 2, size(corner, 2))  ! phi on the sides
-      real(wp) :: next(size(along, 1), 0:MOST_DEGREE + 1, size(corner, 2)) ! the layer of coefficients beside them
-      real(wp) :: inner(size(along, 1), 0:MOST_DEGREE + 2, size(corner, 2)) ! along the line from a corner to the inner point
+      real(wp) :: along(MOST_UNKNOWNS, 0:MOST_DEGREE + 2, MOST_PIECES)   ! phi on the sides
+      real(wp) :: next(MOST_UNKNOWNS, 0:MOST_DEGREE + 1, MOST_PIECES)    ! the layer of coefficients beside them
+      real(wp) :: inner(MOST_UNKNOWNS, 0:MOST_DEGREE + 2, MOST_PIECES)   ! along the line from a corner to the inner point
       integer(ip) :: i, n
       logical :: fits
 
@@ -123,9 +123,9 @@ contains
    pure subroutine take_side(macro, i, along, next)
       type(macro_t), intent(in) :: macro
       integer(ip), intent(in) :: i                  !< side
-      real(wp), intent(out) :: along(:, 0:), next(:, 0:)
+      real(wp), intent(out) :: along(MOST_UNKNOWNS, 0:MOST_DEGREE + 2), next(MOST_UNKNOWNS, 0:MOST_DEGREE + 1)
       real(wp) :: t(2), normal(2), length, along_t, across
-      integer(ip) :: j, k, d, here, there, place
+      integer(ip) :: j, k, d, n, here, there, place
 
       k = macro%degree
       d = k + 2
@@ -136,7 +136,8 @@ contains
       t = t/length
       normal = [t(2), -t(1)]
       place = side_place(macro%n, k, i)
-      along = 0.0_wp
+      n = macro%n_unknowns
+      along(:n, :d) = 0.0_wp
       along(here, 0) = 1.0_wp
       along(here, 1) = 1.0_wp
       along(here + 1:here + 2, 1) = t*(length/d)
@@ -147,7 +148,7 @@ contains
       along_t = dot_product(macro%centre - macro%corner(:, i), t)/length
       across = dot_product(macro%centre - macro%corner(:, i), normal)/d
       do j = 0, k + 1                               ! with the derivative along t, and that along the normal
-         next(:, j) = along(:, j) + along_t*(along(:, j + 1) - along(:, j))
+         next(:n, j) = along(:n, j) + along_t*(along(:n, j + 1) - along(:n, j))
          if (j == 0) then
             next(here + 1:here + 2, j) = next(here + 1:here + 2, j) + across*normal
          else if (j == k + 1) then
@@ -161,15 +162,17 @@ contains
    !> The coefficients along the inner lines, from the corners to the inner point.
    pure subroutine go_inside(macro, next, along, inner)
       type(macro_t), intent(in) :: macro
-      real(wp), intent(in) :: next(:, 0:, :), along(:, 0:, :)
-      real(wp), intent(out) :: inner(:, 0:, :)
+      real(wp), intent(in) :: next(MOST_UNKNOWNS, 0:MOST_DEGREE + 1, MOST_PIECES)
+      real(wp), intent(in) :: along(MOST_UNKNOWNS, 0:MOST_DEGREE + 2, MOST_PIECES)
+      real(wp), intent(out) :: inner(MOST_UNKNOWNS, 0:MOST_DEGREE + 2, MOST_PIECES)
       real(wp) :: w(3, MOST_PIECES)
-      integer(ip) :: i, m, d, before
+      integer(ip) :: i, m, d, n, before
 
       d = macro%degree + 2
+      n = macro%n_unknowns
       do i = 1, macro%n
-         inner(:, 0, i) = along(:, 0, i)
-         inner(:, 1, i) = next(:, 0, i)
+         inner(:n, 0, i) = along(:n, 0, i)
+         inner(:n, 1, i) = next(:n, 0, i)
          w(:, i) = relation(macro%corner(:, after(i + macro%n - 2, macro%n)), macro%corner(:, after(i, macro%n)), &
                             macro%corner(:, i), macro%centre)
       end do
@@ -177,11 +180,12 @@ contains
          do i = 1, macro%n
             before = after(i + macro%n - 2, macro%n)
             if (m == 1) then
-               inner(:, m + 1, i) = w(1, i)*next(:, macro%degree, before) + w(2, i)*next(:, 1, i) + w(3, i)*inner(:, m, i)
+               inner(:n, m + 1, i) = w(1, i)*next(:n, macro%degree, before) + w(2, i)*next(:n, 1, i) + w(3, i)*inner(:n, m, i)
             else if (m == d - 1) then
-               inner(:, m + 1, i) = w(1, i)*inner(:, m, before) + w(2, i)*inner(:, m, after(i, macro%n)) + w(3, i)*inner(:, m, i)
+               inner(:n, m + 1, i) = w(1, i)*inner(:n, m, before) + &
+                                     w(2, i)*inner(:n, m, after(i, macro%n)) + w(3, i)*inner(:n, m, i)
             else                                    ! bubbles
-               inner(:, m + 1, i) = w(3, i)*inner(:, m, i)
+               inner(:n, m + 1, i) = w(3, i)*inner(:n, m, i)
                inner(macro%n_outline + before, m + 1, i) = w(1, i)
                inner(macro%n_outline + i, m + 1, i) = w(2, i)
             end if
@@ -201,27 +205,29 @@ contains
 
    !> Second derivatives on a piece: the stress.
    !>
-   !> With d11, d12, d22 the second differences of the coefficients towards corners 1 and 2 from the inner point, and g the gradients
-   !> of the barycentric coordinates of these corners, the second derivatives of phi are d(d - 1) sum d_rs g_r g_s.
+   !> With d11, d12, d22 the second differences of the coefficients towards corners 1 and 2 from the inner point, and g the
+   !> gradients of the barycentric coordinates of these corners, the second derivatives of phi are d(d - 1) sum d_rs g_r g_s.
    pure subroutine differentiate(macro, i, along, next, inner)
       type(macro_t), intent(inout) :: macro
       integer(ip), intent(in) :: i                  !< piece
-      real(wp), intent(in) :: along(:, 0:), next(:, 0:), inner(:, 0:, :)
-      real(wp) :: c(size(along, 1), 0:MOST_DEGREE + 2, 0:MOST_DEGREE + 2) ! by the exponents of corner 2 and of the inner point
+      real(wp), intent(in) :: along(MOST_UNKNOWNS, 0:MOST_DEGREE + 2), next(MOST_UNKNOWNS, 0:MOST_DEGREE + 1)
+      real(wp), intent(in) :: inner(MOST_UNKNOWNS, 0:MOST_DEGREE + 2, MOST_PIECES)
+      real(wp) :: c(MOST_UNKNOWNS, 0:MOST_DEGREE + 2, 0:MOST_DEGREE + 2) ! by the exponents of corner 2 and of the inner point
       real(wp) :: g(2), h(2), w(COMPONENTS, 3), d11, d12, d22
-      integer(ip) :: j, k, d, m, p, q
+      integer(ip) :: j, k, d, m, n, p, q
 
       d = macro%degree + 2
+      n = macro%n_unknowns
       do m = 2, d
-         c(:, d - m, m) = inner(:, m, after(i, macro%n))
-         c(:, 0, m) = inner(:, m, i)
+         c(:n, d - m, m) = inner(:n, m, after(i, macro%n))
+         c(:n, 0, m) = inner(:n, m, i)
       end do
       if (d == 4) then                              ! the bubble
-         c(:, 1, 2) = 0.0_wp
+         c(:n, 1, 2) = 0.0_wp
          c(macro%n_outline + i, 1, 2) = 1.0_wp
       end if
-      c(:, :d, 0) = along(:, :d)
-      c(:, :d - 1, 1) = next(:, :d - 1)
+      c(:n, :d, 0) = along(:n, :d)
+      c(:n, :d - 1, 1) = next(:n, :d - 1)
       g = macro%centre - macro%corner(:, after(i, macro%n))
       g = [-g(2), g(1)]*(0.5_wp/macro%area(i))
       h = macro%corner(:, i) - macro%centre
@@ -232,7 +238,7 @@ contains
       do k = 1, macro%n_coefficients
          p = EXPONENTS(2, k, macro%degree)
          q = EXPONENTS(3, k, macro%degree)
-         do j = 1, macro%n_unknowns
+         do j = 1, n
             d11 = c(j, p, q) - 2*c(j, p, q + 1) + c(j, p, q + 2)
             d12 = c(j, p + 1, q) - c(j, p, q + 1) - c(j, p + 1, q + 1) + c(j, p, q + 2)
             d22 = c(j, p + 2, q) - 2*c(j, p + 1, q + 1) + c(j, p, q + 2)

@@ -16,7 +16,7 @@
 !> Instead of x itself, any columns of it may be given (`given`) and x is what is taken of each: an element that is like no other
 !> one, or a part of one, needs its own x alone, for which little work is to be done.
 module atrito_element_energy
-   use atrito_airy_stress, only: macro_t, make_macro, piece_values, MOST_COEFFICIENTS, MOST_PIECES
+   use atrito_airy_stress, only: macro_t, make_macro, piece_values, MOST_COEFFICIENTS, MOST_PIECES, MOST_UNKNOWNS
    use atrito_assembly, only: fem_t, form_t, take_form
    use atrito_dense, only: add_product
    use atrito_element_table, only: MOST_NODES, SHAPES
@@ -44,7 +44,7 @@ module atrito_element_energy
       integer(ip) :: n_rows = 0                     !< with those of rest
       real(wp), allocatable :: rows(:, :)           !< (n + n_given, rows) R_a', and behind it R_x', but that of rest
       real(wp), allocatable :: rest(:, :)           !< (n_given, n_given) a triangle: rows of R_x where those of R_a are 0
-      real(wp), allocatable :: slopes(:, :)         !< (n + n_given, n + n_given) H, and beside it G; R_x' R_x without rest
+      real(wp), allocatable :: slopes(:, :)         !< (n + n_given, n + n_given) H, and beside it G; R_x' R_x
    end type element_energy_t
 
    !> Of the stresses of 3, 4, 6, 8 and 9 nodes in elements with parallel sides; in others they are no polynomials.
@@ -118,6 +118,11 @@ contains
       call leave_bubbles(bubbles(:energy%macro%n_unknowns - energy%n, :n_rows), energy%rows)
       energy%slopes = 0.0_wp
       call add_product(energy%rows, energy%rows, energy%slopes)
+      associate (of_x => energy%slopes(energy%n + 1:, energy%n + 1:))
+         do n_x = 1, energy%n_given
+            of_x(:, n_x) = of_x(:, n_x) + matmul(energy%rest(:, n_x), energy%rest)
+         end do
+      end associate
    end subroutine make_energy
 
    !> The points on a piece: the fewest that are exact, as far as any are.
@@ -191,23 +196,30 @@ contains
       type(rule_t), intent(in) :: rule
       type(element_energy_t), intent(inout) :: energy
       real(wp), intent(out) :: bubbles(:, :)        !< (bubbles, rows)
-      real(wp) :: root(COMPONENTS, COMPONENTS), s(energy%macro%n_unknowns, COMPONENTS)
-      integer(ip) :: i, l, q, row
+      real(wp) :: root(COMPONENTS, COMPONENTS), s(MOST_UNKNOWNS, COMPONENTS)
+      integer(ip) :: i, j, l, q, row, n_numbers
 
+      n_numbers = energy%macro%n_unknowns
       associate (macro => energy%macro, n => energy%macro%n_coefficients)
          do i = 1, macro%n
             root = sqrt(macro%area(i))*energy%root
             do q = 1, n
-               s = rule%triangle(q, q)*macro%stress(:, :, q, i)
-               do l = q + 1, n
-                  s = s + rule%triangle(q, l)*macro%stress(:, :, l, i)
+               s(:n_numbers, :) = 0.0_wp
+               do l = q, n
+                  do j = 1, n_numbers
+                     s(j, 1) = s(j, 1) + rule%triangle(q, l)*macro%stress(j, 1, l, i)
+                     s(j, 2) = s(j, 2) + rule%triangle(q, l)*macro%stress(j, 2, l, i)
+                     s(j, 3) = s(j, 3) + rule%triangle(q, l)*macro%stress(j, 3, l, i)
+                  end do
                end do
-               s(:, 1) = root(1, 1)*s(:, 1) + root(1, 2)*s(:, 2) + root(1, 3)*s(:, 3)
-               s(:, 2) = root(2, 2)*s(:, 2) + root(2, 3)*s(:, 3)
-               s(:, 3) = root(3, 3)*s(:, 3)
                row = COMPONENTS*(n*(i - 1) + q - 1)
+               do j = 1, n_numbers
+                  s(j, 1) = root(1, 1)*s(j, 1) + root(1, 2)*s(j, 2) + root(1, 3)*s(j, 3)
+                  s(j, 2) = root(2, 2)*s(j, 2) + root(2, 3)*s(j, 3)
+                  s(j, 3) = root(3, 3)*s(j, 3)
+               end do
                energy%rows(:energy%n, row + 1:row + 3) = s(:energy%n, :)
-               bubbles(:, row + 1:row + 3) = s(energy%n + 1:, :)
+               bubbles(:, row + 1:row + 3) = s(energy%n + 1:n_numbers, :)
             end do
          end do
       end associate
@@ -220,8 +232,8 @@ contains
       real(wp), intent(in) :: origin(2)             !< of the macro's corners, less the element's first node [L]
       real(wp), intent(in) :: given(:, :)           !< (x, n_given)
       type(element_energy_t), intent(inout) :: energy
-      real(wp) :: stress(COMPONENTS, energy%n_given), values(COMPONENTS, rule%n, energy%n_given), lambda(3), along(COMPONENTS)
-      real(wp) :: rest(COMPONENTS*rule%n*energy%macro%n, energy%n_given), root(COMPONENTS, COMPONENTS)
+      real(wp) :: stress(COMPONENTS, MOST_GIVEN), values(COMPONENTS, MOST_PLACES, MOST_GIVEN), lambda(3), along(COMPONENTS)
+      real(wp) :: rest(COMPONENTS*MOST_PLACES*MOST_PIECES, MOST_GIVEN), root(COMPONENTS, COMPONENTS)
       integer(ip) :: i, j, k, q, row
 
       associate (macro => energy%macro, n => energy%macro%n_coefficients)
@@ -254,7 +266,7 @@ contains
             end do
          end do
          energy%rest = 0.0_wp                       ! as many polynomials as points: nothing is left
-         if (rule%n > n) call make_orthogonal(rest, energy%rest)
+         if (rule%n > n) call make_orthogonal(rest(:COMPONENTS*rule%n*macro%n, :energy%n_given), energy%rest)
       end associate
    end subroutine add_given
 
@@ -269,7 +281,7 @@ contains
       integer(ip) :: j, k, l
 
       associate (n => energy%shape, c => energy%elasticity)
-         call take_gradients(n, energy%x(:, :n), natural_place(n, energy%x(:, :n), place), g, value)
+         call take_gradients(n, energy%x(:, :n), natural_place(n, energy%x(:, :n), place), is_heated, g, value)
          do j = 1, size(given, 2, kind=ip)
             e = 0.0_wp
             do k = 1, n
@@ -402,28 +414,34 @@ contains
          heat = section%thickness*section%expansion*thermal_stresses(section, form%state)
          c = section%thickness*elasticity_matrix(section, form%state)
          do i = 1, SHAPES(n)%n_corners
-            call take_gradients(n, form%x(:, :n), SHAPES(n)%place(:, i), g, value)
+            call take_gradients(n, form%x(:, :n), SHAPES(n)%place(:, i), allocated(fem%heating), g, value)
             do j = 1, n
                field(3*i - 2:3*i, 2*j - 1) = c(:, 1)*g(1, j) + c(:, 3)*g(2, j)
                field(3*i - 2:3*i, 2*j) = c(:, 2)*g(2, j) + c(:, 3)*g(1, j)
-               field(3*i - 2:3*i, 2*n + j) = -heat(:COMPONENTS)*value(j)
+               if (allocated(fem%heating)) field(3*i - 2:3*i, 2*n + j) = -heat(:COMPONENTS)*value(j)
             end do
          end do
       end associate
    end function corner_stresses
 
    !> Shape functions at a place, and their gradients.
-   pure subroutine take_gradients(n, x, xi, g, value)
+   pure subroutine take_gradients(n, x, xi, is_heated, g, value)
       integer(ip), intent(in) :: n
       real(wp), intent(in) :: x(:, :), xi(2)
       real(wp), intent(out) :: g(:, :)              !< (2, n) [1/L]
-      real(wp), intent(out) :: value(:)
-      real(wp) :: dn(n, 2), j(2, 2)
+      logical, intent(in) :: is_heated              !< shape functions are wanted
+      real(wp), intent(inout) :: value(:)
+      real(wp) :: dn(MOST_NODES, 2), j(2, 2)
       integer(ip) :: k
 
-      value(:n) = shape_values(n, xi)
-      dn = shape_gradients(n, xi)
-      j = inverse(jacobian(x, dn))
+      if (is_heated) value(:n) = shape_values(n, xi)
+      if (n == 4) then                              ! most there are: at once
+         dn(:4, 1) = 0.25_wp*[xi(2) - 1, 1 - xi(2), 1 + xi(2), -1 - xi(2)]
+         dn(:4, 2) = 0.25_wp*[xi(1) - 1, -1 - xi(1), 1 + xi(1), 1 - xi(1)]
+      else
+         dn(:n, :) = shape_gradients(n, xi)
+      end if
+      j = inverse(jacobian(x, dn(:n, :)))
       do k = 1, n
          g(:, k) = [dn(k, 1)*j(1, 1) + dn(k, 2)*j(2, 1), dn(k, 1)*j(1, 2) + dn(k, 2)*j(2, 2)]
       end do
@@ -464,7 +482,7 @@ contains
       integer(ip), intent(in) :: n
       real(wp), intent(in) :: x(:, :), place(2)
       real(wp) :: xi(2)
-      real(wp) :: j(2, 2), r(2), step(2), c(2, 4), along(2), b, value(n)
+      real(wp) :: j(2, 2), r(2), step(2), c(2, 4), along(2), b, value(MOST_NODES)
       integer(ip) :: i, k
 
       if (SHAPES(n)%n_corners == 3) then
@@ -484,7 +502,7 @@ contains
       xi(2) = dot_product(r - xi(1)*c(:, 2), along)/dot_product(along, along)
       if (n < 9) return
       do i = 1, MOST_STEPS
-         value = shape_values(n, xi)
+         value(:n) = shape_values(n, xi)
          r = place
          do k = 1, n
             r = r - x(:, k)*value(k)

@@ -9,14 +9,14 @@
 !> one of them on a side along an axis, the component of the gradient that belongs to it is 0. Sides in other directions with one
 !> component known are held altogether, which costs a little of the bound.
 module atrito_star_sweeps
-   use atrito_airy_stress, only: side_place
+   use atrito_airy_stress, only: side_place, MOST_OUTLINE
    use atrito_element_table, only: CORNERS_OF
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
    use atrito_mesh_sides, only: mesh_sides_t, chains_t
    implicit none (type, external)
    private
-   public :: outlines_t, sweep_stars, solve_least, pack_energy, whole_energy, packed_size
+   public :: outlines_t, sweep_stars, solve_least, pack_energy, take_columns, packed_size
 
    !> Elements by their outlines: E = a'H a + 2 g'a + c of each, elements of one class with one H.
    !>
@@ -25,7 +25,8 @@ module atrito_star_sweeps
    !> tractions whatever the numbers are, and H is kept whole.
    type :: outlines_t
       integer(ip) :: degree = 0                     !< k
-      integer(ip), allocatable :: class_of(:)       !< (n_elements)
+      integer(ip), allocatable :: place(:)          !< (n_elements) of an element in what follows: class by class
+      integer(ip), allocatable :: class_of(:)       !< (n_elements) of a place
       real(wp), allocatable :: h(:, :)              !< (packed_size, classes) [1/F] and so on
       real(wp), allocatable :: of_cut(:, :, :)      !< (numbers, numbers, classes behind these) H of elements that are cut
       real(wp), allocatable :: a(:, :)              !< (numbers, n_elements)
@@ -44,7 +45,10 @@ module atrito_star_sweeps
       integer(ip), allocatable :: at(:, :)          !< the same among the free ones of the star; 0: held
       real(wp), allocatable :: sign_of(:, :)
       real(wp), allocatable :: factor(:, :)         !< (n_free, n_free)
-      real(wp), allocatable :: h(:, :, :)           !< (numbers, numbers, elements) of outlines
+      real(wp), allocatable :: h(:, :, :)           !< (numbers, numbers, elements) of outlines, columns of its own numbers
+      real(wp), allocatable :: z(:, :, :)           !< (numbers, 3, elements) by which the first three rows follow, where corner /= 1
+      real(wp), allocatable :: slope(:), step(:)    !< (n_free)
+      logical, allocatable :: looks_first(:, :), looks_held(:) !< as is_first and is_held, of the star that is asked for
    end type star_t
 
    real(wp), parameter :: ROUND_OFF = 1.0e-11_wp    !< a pivot below this share of its diagonal is none
@@ -85,7 +89,8 @@ contains
       associate (n => 3 + (2*outlines%degree - 1)*(most + 1), numbers => size(outlines%a, 1))
          allocate (star%class_of(most), star%corner(most), star%is_first(2, most), star%is_held(n), star%place(m, most), &
                    star%at(m, most), star%sign_of(m, most), star%factor(n, n))
-         allocate (star%h(numbers, numbers, most), source=0.0_wp)
+         allocate (star%h(numbers, numbers, most), star%z(numbers, 3, most), source=0.0_wp)
+         allocate (star%slope(n), star%step(n), star%looks_first(2, most), star%looks_held(n))
       end associate
    end subroutine make_room
 
@@ -111,57 +116,99 @@ contains
       end do
    end subroutine pack_energy
 
-   !> H of an element. With z the outlines of phi = 1, x_1, x_2 (less the first corner), which at the first corner are 1 each, and H z
-   !> = 0,
+   !> Columns of H of an element: of all numbers, or of some, behind the first corner.
    !>
-   !>     H(:, first) = -H(:, others) z(others).
-   pure subroutine whole_energy(mesh, outlines, e, h)
+   !> With z the outlines of phi = 1, x_1, x_2 (less the first corner), which at the first corner are 1 each, and H z = 0,
+   !>
+   !>     H(:, first) = -H(:, others) z(others),     H(first, :) the same of each column.
+   pure subroutine take_columns(mesh, outlines, e, h, z, place)
       type(mesh_t), intent(in) :: mesh
       type(outlines_t), intent(in) :: outlines
       integer(ip), intent(in) :: e
-      real(wp), intent(inout) :: h(:, :)
-      real(wp) :: z(size(h, 1), 3), x(2), side(2)
-      integer(ip) :: i, j, l, n, n_corners, c
+      real(wp), intent(inout), contiguous :: h(:, :)
+      real(wp), intent(out) :: z(:, :)              !< (numbers, 3); 0: the element has a side that is cut
+      integer(ip), intent(in), optional :: place(:) !< those that are wanted, all > 3: without rows 1 to 3
+      real(wp) :: first(MOST_OUTLINE, 3), of_first(3, 3)
+      integer(ip) :: i, j, k, l, n, c, class, start(MOST_OUTLINE)
 
-      if (outlines%class_of(e) > size(outlines%h, 2)) then
-         h = outlines%of_cut(:, :, outlines%class_of(e) - size(outlines%h, 2))
+      class = outlines%class_of(outlines%place(e))
+      z = 0.0_wp
+      if (class > size(outlines%h, 2)) then
+         h = outlines%of_cut(:, :, class - size(outlines%h, 2))
          return
       end if
-      n_corners = CORNERS_OF(mesh%shape(e))
-      n = n_corners*(2*outlines%degree + 2)
-      associate (packed => outlines%h(:, outlines%class_of(e)), nodes => mesh%nodes(:n_corners, e))
-         l = 0
-         do j = 4, n
-            h(j:n, j) = packed(l + 1:l + n - j + 1)
-            h(j, j + 1:n) = packed(l + 2:l + n - j + 1)
-            l = l + n - j + 1
-         end do
-         do i = 1, n_corners
-            x = mesh%x(:, nodes(i)) - mesh%x(:, nodes(1))
-            side = mesh%x(:, nodes(1 + mod(i, n_corners))) - mesh%x(:, nodes(i))
-            z(3*i - 2, :) = [1.0_wp, x(1), x(2)]
-            z(3*i - 1, :) = [0.0_wp, 1.0_wp, 0.0_wp]
-            z(3*i, :) = [0.0_wp, 0.0_wp, 1.0_wp]
-            l = side_place(n_corners, outlines%degree, i)
-            do c = l, l + outlines%degree - 1
-               z(c, :) = [0.0_wp, side(2), -side(1)]/norm2(side)
+      n = CORNERS_OF(mesh%shape(e))*(2*outlines%degree + 2)
+      call linear_outlines(mesh, e, outlines%degree, z)
+      l = 0
+      do j = 4, n
+         start(j) = l - j + 1                       ! H(i, j), i >= j, is number start + i
+         l = l + n - j + 1
+      end do
+      if (present(place)) then
+         do k = 1, size(place, kind=ip)
+            j = place(k)
+            do i = 4, j - 1
+               h(i, j) = outlines%h(start(i) + j, class)
             end do
-            if (outlines%degree == 2) z(l + 2, :) = [1.0_wp, x(1) + 0.5_wp*side(1), x(2) + 0.5_wp*side(2)]
+            do i = j, n
+               h(i, j) = outlines%h(start(j) + i, class)
+            end do
+         end do
+         return
+      end if
+      first = 0.0_wp
+      of_first = 0.0_wp
+      do j = 4, n
+         h(j, j) = outlines%h(start(j) + j, class)
+         do c = 1, 3
+            first(j, c) = first(j, c) - h(j, j)*z(j, c)
+         end do
+         do i = j + 1, n
+            h(i, j) = outlines%h(start(j) + i, class)
+            h(j, i) = h(i, j)
+            do c = 1, 3
+               first(i, c) = first(i, c) - h(i, j)*z(j, c)
+               first(j, c) = first(j, c) - h(i, j)*z(i, c)
+            end do
+         end do
+         do c = 1, 3                                ! first(j, :) is complete
+            h(j, c) = first(j, c)
+            h(c, j) = first(j, c)
+            do i = 1, 3
+               of_first(i, c) = of_first(i, c) - first(j, i)*z(j, c)
+            end do
+         end do
+      end do
+      h(:3, :3) = of_first
+   end subroutine take_columns
+
+   !> The outlines of phi = 1, x_1, x_2, less the first corner of an element.
+   pure subroutine linear_outlines(mesh, e, degree, z)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: e, degree
+      real(wp), intent(inout) :: z(:, :)            !< (numbers, 3)
+      real(wp) :: x(2), side(2), length
+      integer(ip) :: i, c, l, n
+
+      n = CORNERS_OF(mesh%shape(e))
+      associate (nodes => mesh%nodes(:n, e))
+         do i = 1, n
+            x = mesh%x(:, nodes(i)) - mesh%x(:, nodes(1))
+            side = mesh%x(:, nodes(1 + mod(i, n))) - mesh%x(:, nodes(i))
+            length = sqrt(side(1)**2 + side(2)**2)
+            z(3*i - 2, 1) = 1.0_wp
+            z(3*i - 2, 2:3) = x
+            z(3*i - 1, 2) = 1.0_wp
+            z(3*i, 3) = 1.0_wp
+            l = side_place(n, degree, i)
+            do c = l, l + degree - 1
+               z(c, 2) = side(2)/length
+               z(c, 3) = -side(1)/length
+            end do
+            if (degree == 2) z(l + 2, :) = [1.0_wp, x(1) + 0.5_wp*side(1), x(2) + 0.5_wp*side(2)]
          end do
       end associate
-      do c = 1, 3
-         h(4:n, c) = 0.0_wp
-         do j = 4, n
-            h(4:n, c) = h(4:n, c) - h(4:n, j)*z(j, c)
-         end do
-         h(c, 4:n) = h(4:n, c)
-      end do
-      do c = 1, 3
-         do i = 1, 3
-            h(i, c) = -dot_product(h(4:n, i), z(4:n, c))
-         end do
-      end do
-   end subroutine whole_energy
+   end subroutine linear_outlines
 
    !> The least energy over the numbers of one star.
    !>
@@ -174,26 +221,25 @@ contains
    !> costs the product of some small matrices, whatever the mesh. The order of the system is 3 + (2k - 1) times the sides that meet
    !> at the corner, 15 with k = 2 in a grid of quadrilaterals.
    subroutine improve_star(star, element, outlines, gain)
-      type(star_t), intent(in) :: star
+      type(star_t), intent(inout) :: star
       integer(ip), intent(in) :: element(:)         !< of a chain
       type(outlines_t), intent(inout) :: outlines
       real(wp), intent(inout) :: gain
-      real(wp) :: step(star%n_free), slope(star%n_free)
       integer(ip) :: j, s
 
-      slope = 0.0_wp
+      star%slope(:star%n_free) = 0.0_wp
       do j = 1, size(element, kind=ip)
          do s = 1, size(star%at, 1, kind=ip)
-            associate (k => star%at(s, j))
-               if (k > 0) slope(k) = slope(k) - star%sign_of(s, j)*outlines%slope(star%place(s, j), element(j))
+            associate (k => star%at(s, j), e => outlines%place(element(j)))
+               if (k > 0) star%slope(k) = star%slope(k) - star%sign_of(s, j)*outlines%slope(star%place(s, j), e)
             end associate
          end do
       end do
-      step = slope
-      call solve_factored(star%n_free, star%factor, step)
-      gain = gain + dot_product(slope, step)
+      star%step(:star%n_free) = star%slope(:star%n_free)
+      call solve_factored(star%n_free, star%factor, star%step)
+      gain = gain + dot_product(star%slope(:star%n_free), star%step(:star%n_free))
       do j = 1, size(element, kind=ip)
-         call move_outline(star, j, step, element(j), outlines)
+         call move_outline(star, j, outlines%place(element(j)), outlines)
       end do
    end subroutine improve_star
 
@@ -205,32 +251,31 @@ contains
       integer(ip), intent(in) :: element(:), corner(:), side(0:) !< a chain
       type(outlines_t), intent(in) :: outlines
       type(star_t), intent(inout) :: star
-      logical :: is_held(3*size(element) + 6), is_first(2, size(element))
       integer(ip) :: n, j, per_side, n_elements
       logical :: is_same
 
       n_elements = size(element, kind=ip)
       per_side = 2*outlines%degree - 1
       n = 3 + per_side*(n_elements + merge(0, 1, side(0) == side(n_elements)))
-      call find_held(mesh, sides, known, side, outlines%degree, is_held(:n))
+      call find_held(mesh, sides, known, side, outlines%degree, star%looks_held(:n))
       do j = 1, n_elements
-         is_first(1, j) = sides%of_element(corner(j), element(j)) > 0
-         is_first(2, j) = sides%of_element(corner_before(mesh, element(j), corner(j)), element(j)) > 0
+         star%looks_first(1, j) = sides%of_element(corner(j), element(j)) > 0
+         star%looks_first(2, j) = sides%of_element(corner_before(mesh, element(j), corner(j)), element(j)) > 0
       end do
       is_same = star%n == n .and. star%n_elements == n_elements
       do j = 1, n_elements
          if (.not. is_same) exit
-         is_same = star%class_of(j) == outlines%class_of(element(j)) .and. star%corner(j) == corner(j) .and. &
-                   all(star%is_first(:, j) .eqv. is_first(:, j))
+         is_same = star%class_of(j) == outlines%class_of(outlines%place(element(j))) .and. star%corner(j) == corner(j) .and. &
+                   all(star%is_first(:, j) .eqv. star%looks_first(:, j))
       end do
-      if (is_same) is_same = all(star%is_held(:n) .eqv. is_held(:n))
+      if (is_same) is_same = all(star%is_held(:n) .eqv. star%looks_held(:n))
       if (is_same) return
       star%n = n
       star%n_elements = n_elements
-      star%class_of(:n_elements) = outlines%class_of(element)
+      star%class_of(:n_elements) = outlines%class_of(outlines%place(element))
       star%corner(:n_elements) = corner
-      star%is_first(:, :n_elements) = is_first
-      star%is_held(:n) = is_held(:n)
+      star%is_first(:, :n_elements) = star%looks_first(:, :n_elements)
+      star%is_held(:n) = star%looks_held(:n)
       call make_star(mesh, element, side(0) == side(n_elements), outlines, star)
    end subroutine take_star
 
@@ -254,7 +299,11 @@ contains
       star%factor(:star%n_free, :star%n_free) = 0.0_wp
       do j = 1, size(element, kind=ip)
          call find_places(j)
-         call whole_energy(mesh, outlines, element(j), star%h(:, :, j))
+         if (star%corner(j) == 1 .or. 2*size(outlines%h, 2) < size(outlines%energy)) then ! many stars are like this one
+            call take_columns(mesh, outlines, element(j), star%h(:, :, j), star%z(:, :, j))
+         else
+            call take_columns(mesh, outlines, element(j), star%h(:, :, j), star%z(:, :, j), star%place(:, j))
+         end if
          associate (h => star%h(:, :, j), at => star%at(:, j), place => star%place(:, j), sign_of => star%sign_of(:, j))
             do s = 1, m
                if (at(s) == 0) cycle
@@ -313,31 +362,40 @@ contains
    end function corner_before
 
    !> The step of a star in the numbers of its element j. E changes by the step times the slopes before and behind it.
-   pure subroutine move_outline(star, j, step, e, outlines)
+   pure subroutine move_outline(star, j, e, outlines)
       type(star_t), intent(in) :: star
       integer(ip), intent(in) :: j
-      real(wp), intent(in) :: step(:)
-      integer(ip), intent(in) :: e
+      integer(ip), intent(in) :: e                  !< its place
       type(outlines_t), intent(inout) :: outlines
-      real(wp) :: of_number, slope(size(star%h, 1)), change
-      integer(ip) :: s, n
+      real(wp) :: of_number, slope(MOST_OUTLINE), change
+      integer(ip) :: s, n, i
 
-      n = size(slope, kind=ip)
+      n = size(star%h, 1, kind=ip)
       slope = 0.0_wp
       change = 0.0_wp
       do s = 1, size(star%at, 1, kind=ip)
          if (star%at(s, j) == 0) cycle
-         of_number = star%sign_of(s, j)*step(star%at(s, j))
+         of_number = star%sign_of(s, j)*star%step(star%at(s, j))
          associate (place => star%place(s, j))
             outlines%a(place, e) = outlines%a(place, e) + of_number
             change = change + 2*of_number*outlines%slope(place, e)
-            slope(:n) = slope(:n) + star%h(:n, place, j)*of_number
+            do i = 1, n
+               slope(i) = slope(i) + star%h(i, place, j)*of_number
+            end do
          end associate
       end do
+      if (star%corner(j) > 1 .and. star%z(1, 1, j) > 0.0_wp) then
+         slope(:3) = 0.0_wp
+         do i = 4, n
+            slope(1) = slope(1) - star%z(i, 1, j)*slope(i)
+            slope(2) = slope(2) - star%z(i, 2, j)*slope(i)
+            slope(3) = slope(3) - star%z(i, 3, j)*slope(i)
+         end do
+      end if
       do s = 1, size(star%at, 1, kind=ip)
-         if (star%at(s, j) > 0) change = change + star%sign_of(s, j)*step(star%at(s, j))*slope(star%place(s, j))
+         if (star%at(s, j) > 0) change = change + star%sign_of(s, j)*star%step(star%at(s, j))*slope(star%place(s, j))
       end do
-      outlines%slope(:, e) = outlines%slope(:, e) + slope
+      outlines%slope(:, e) = outlines%slope(:, e) + slope(:n)
       outlines%energy(e) = outlines%energy(e) + change
    end subroutine move_outline
 
