@@ -50,8 +50,8 @@ module atrito_airy_stress
       real(wp) :: corner(2, MOST_PIECES) = 0.0_wp   !< [L] relative to the first one
       real(wp) :: centre(2) = 0.0_wp                !< the inner point [L]
       real(wp) :: area(MOST_PIECES) = 0.0_wp        !< [L^2]
-      !> Bernstein coefficients of s11, s22, s12: (component, coefficient, piece, unknown) [1/L^2 and so on]
-      real(wp) :: stress(COMPONENTS, MOST_COEFFICIENTS, MOST_PIECES, MOST_UNKNOWNS) = 0.0_wp
+      !> Bernstein coefficients of s11, s22, s12: (unknown, component, coefficient, piece) [1/L^2 and so on]
+      real(wp), allocatable :: stress(:, :, :, :)
    end type macro_t
 
    !> Exponents of the Bernstein polynomials of degree 1 and 2, in the order of the coefficients.
@@ -76,11 +76,12 @@ contains
    pure subroutine make_macro(corner, degree, macro)
       real(wp), intent(in) :: corner(:, :)          !< (2, 3 or 4) counter-clockwise [L]
       integer(ip), intent(in) :: degree             !< k: 1, 2
-      type(macro_t), intent(out) :: macro
-      real(wp) :: along(numbers_of(size(corner, 2), degree), 0:MOST_DEGREE + 2, size(corner, 2))  ! phi on the sides
-      real(wp) :: next(size(along, 1), 0:MOST_DEGREE + 1, size(corner, 2)) ! the layer of coefficients beside them
-      real(wp) :: inner(size(along, 1), 0:MOST_DEGREE + 2, size(corner, 2)) ! along the line from a corner to the inner point
+      type(macro_t), intent(inout) :: macro         !< what is allocated serves again
+      real(wp) :: along(MOST_UNKNOWNS, 0:MOST_DEGREE + 2, MOST_PIECES)   ! phi on the sides
+      real(wp) :: next(MOST_UNKNOWNS, 0:MOST_DEGREE + 1, MOST_PIECES)    ! the layer of coefficients beside them
+      real(wp) :: inner(MOST_UNKNOWNS, 0:MOST_DEGREE + 2, MOST_PIECES)   ! along the line from a corner to the inner point
       integer(ip) :: i, n
+      logical :: fits
 
       n = size(corner, 2, kind=ip)
       macro%n = n
@@ -88,6 +89,12 @@ contains
       macro%n_outline = n*(3 + 2*degree - 1)
       macro%n_unknowns = numbers_of(n, degree)
       macro%n_coefficients = N_COEFFICIENTS(degree)
+      fits = allocated(macro%stress)
+      if (fits) fits = size(macro%stress, 1) == macro%n_unknowns
+      if (.not. fits) then
+         if (allocated(macro%stress)) deallocate (macro%stress)
+         allocate (macro%stress(macro%n_unknowns, COMPONENTS, macro%n_coefficients, n))
+      end if
       do i = 1, n
          macro%corner(:, i) = corner(:, i) - corner(:, 1)
       end do
@@ -116,9 +123,9 @@ contains
    pure subroutine take_side(macro, i, along, next)
       type(macro_t), intent(in) :: macro
       integer(ip), intent(in) :: i                  !< side
-      real(wp), intent(out) :: along(:, 0:), next(:, 0:)
-      real(wp) :: t(2), normal(2), length, slope(size(along, 1), 2)
-      integer(ip) :: j, k, d, here, there, place
+      real(wp), intent(out) :: along(MOST_UNKNOWNS, 0:MOST_DEGREE + 2), next(MOST_UNKNOWNS, 0:MOST_DEGREE + 1)
+      real(wp) :: t(2), normal(2), length, along_t, across
+      integer(ip) :: j, k, d, n, here, there, place
 
       k = macro%degree
       d = k + 2
@@ -129,7 +136,8 @@ contains
       t = t/length
       normal = [t(2), -t(1)]
       place = side_place(macro%n, k, i)
-      along = 0.0_wp
+      n = macro%n_unknowns
+      along(:n, :d) = 0.0_wp
       along(here, 0) = 1.0_wp
       along(here, 1) = 1.0_wp
       along(here + 1:here + 2, 1) = t*(length/d)
@@ -137,126 +145,109 @@ contains
       along(there, d - 1) = 1.0_wp
       along(there + 1:there + 2, d - 1) = -t*(length/d)
       if (k == 2) along(place + k, 2) = 1.0_wp
-      next = 0.0_wp
-      do j = 0, k + 1
-         slope = 0.0_wp                             ! the gradient's coefficient j: along t and along the normal
-         slope(:, 1) = (along(:, j + 1) - along(:, j))*(d/length)
+      along_t = dot_product(macro%centre - macro%corner(:, i), t)/length
+      across = dot_product(macro%centre - macro%corner(:, i), normal)/d
+      do j = 0, k + 1                               ! with the derivative along t, and that along the normal
+         next(:n, j) = along(:n, j) + along_t*(along(:n, j + 1) - along(:n, j))
          if (j == 0) then
-            slope(here + 1:here + 2, 2) = normal
+            next(here + 1:here + 2, j) = next(here + 1:here + 2, j) + across*normal
          else if (j == k + 1) then
-            slope(there + 1:there + 2, 2) = normal
+            next(there + 1:there + 2, j) = next(there + 1:there + 2, j) + across*normal
          else
-            slope(place + j - 1, 2) = 1.0_wp
+            next(place + j - 1, j) = next(place + j - 1, j) + across
          end if
-         next(:, j) = along(:, j) + (dot_product(macro%centre - macro%corner(:, i), t)*slope(:, 1) &
-                                     + dot_product(macro%centre - macro%corner(:, i), normal)*slope(:, 2))/d
       end do
    end subroutine take_side
 
    !> The coefficients along the inner lines, from the corners to the inner point.
    pure subroutine go_inside(macro, next, along, inner)
       type(macro_t), intent(in) :: macro
-      real(wp), intent(in) :: next(:, 0:, :), along(:, 0:, :)
-      real(wp), intent(out) :: inner(:, 0:, :)
-      real(wp) :: beside(size(along, 1), 2), p, q, r, s
-      integer(ip) :: i, m, d, before
+      real(wp), intent(in) :: next(MOST_UNKNOWNS, 0:MOST_DEGREE + 1, MOST_PIECES)
+      real(wp), intent(in) :: along(MOST_UNKNOWNS, 0:MOST_DEGREE + 2, MOST_PIECES)
+      real(wp), intent(out) :: inner(MOST_UNKNOWNS, 0:MOST_DEGREE + 2, MOST_PIECES)
+      real(wp) :: w(3, MOST_PIECES)
+      integer(ip) :: i, m, d, n, before
 
       d = macro%degree + 2
+      n = macro%n_unknowns
       do i = 1, macro%n
-         inner(:, 0, i) = along(:, 0, i)
-         inner(:, 1, i) = next(:, 0, i)
+         inner(:n, 0, i) = along(:n, 0, i)
+         inner(:n, 1, i) = next(:n, 0, i)
+         w(:, i) = relation(macro%corner(:, after(i + macro%n - 2, macro%n)), macro%corner(:, after(i, macro%n)), &
+                            macro%corner(:, i), macro%centre)
       end do
       do m = 1, d - 1
          do i = 1, macro%n
             before = after(i + macro%n - 2, macro%n)
             if (m == 1) then
-               beside(:, 1) = next(:, macro%degree, before)
-               beside(:, 2) = next(:, 1, i)
+               inner(:n, m + 1, i) = w(1, i)*next(:n, macro%degree, before) + w(2, i)*next(:n, 1, i) + w(3, i)*inner(:n, m, i)
             else if (m == d - 1) then
-               beside(:, 1) = inner(:, d - 1, before)
-               beside(:, 2) = inner(:, d - 1, after(i, macro%n))
+               inner(:n, m + 1, i) = w(1, i)*inner(:n, m, before) + &
+                                     w(2, i)*inner(:n, m, after(i, macro%n)) + w(3, i)*inner(:n, m, i)
             else                                    ! bubbles
-               beside = 0.0_wp
-               beside(macro%n_outline + before, 1) = 1.0_wp
-               beside(macro%n_outline + i, 2) = 1.0_wp
+               inner(:n, m + 1, i) = w(3, i)*inner(:n, m, i)
+               inner(macro%n_outline + before, m + 1, i) = w(1, i)
+               inner(macro%n_outline + i, m + 1, i) = w(2, i)
             end if
-            call relate(macro%corner(:, before), macro%corner(:, after(i, macro%n)), macro%corner(:, i), macro%centre, p, q, r, s)
-            inner(:, m + 1, i) = -(p*beside(:, 1) + q*beside(:, 2) + r*inner(:, m, i))/s
          end do
       end do
    end subroutine go_inside
 
-   !> p v0 + q v2 + r v1 + s v3 = 0, p + q + r + s = 0, of four points.
-   pure subroutine relate(v0, v2, v1, v3, p, q, r, s)
+   !> The weights of v0, v2, v1 whose sum is v3, their own being 1.
+   pure function relation(v0, v2, v1, v3) result(w)
       real(wp), intent(in) :: v0(2), v2(2), v1(2), v3(2)
-      real(wp), intent(out) :: p, q, r, s
+      real(wp) :: w(3)
 
-      ! barycentric coordinates of v3 in the triangle v0 v2 v1, times twice its area
-      p = cross(v2 - v3, v1 - v3)
-      q = cross(v1 - v3, v0 - v3)
-      r = cross(v0 - v3, v2 - v3)
-      s = -(p + q + r)
-   end subroutine relate
+      ! barycentric coordinates of v3 in the triangle v0 v2 v1
+      w = [cross(v2 - v3, v1 - v3), cross(v1 - v3, v0 - v3), cross(v0 - v3, v2 - v3)]
+      w = w/sum(w)
+   end function relation
 
    !> Second derivatives on a piece: the stress.
+   !>
+   !> With d11, d12, d22 the second differences of the coefficients towards corners 1 and 2 from the inner point, and g the
+   !> gradients of the barycentric coordinates of these corners, the second derivatives of phi are d(d - 1) sum d_rs g_r g_s.
    pure subroutine differentiate(macro, i, along, next, inner)
       type(macro_t), intent(inout) :: macro
       integer(ip), intent(in) :: i                  !< piece
-      real(wp), intent(in) :: along(:, 0:), next(:, 0:), inner(:, 0:, :)
-      real(wp) :: g(2, 3), c(size(along, 1)), of_c(COMPONENTS), w
-      integer(ip) :: j, k, r, s, a(3), d
+      real(wp), intent(in) :: along(MOST_UNKNOWNS, 0:MOST_DEGREE + 2), next(MOST_UNKNOWNS, 0:MOST_DEGREE + 1)
+      real(wp), intent(in) :: inner(MOST_UNKNOWNS, 0:MOST_DEGREE + 2, MOST_PIECES)
+      real(wp) :: c(MOST_UNKNOWNS, 0:MOST_DEGREE + 2, 0:MOST_DEGREE + 2) ! by the exponents of corner 2 and of the inner point
+      real(wp) :: g(2), h(2), w(COMPONENTS, 3), d11, d12, d22
+      integer(ip) :: j, k, d, m, n, p, q
 
       d = macro%degree + 2
-      g = gradients_of(macro%corner(:, i), macro%corner(:, after(i, macro%n)), macro%centre, macro%area(i))
+      n = macro%n_unknowns
+      do m = 2, d
+         c(:n, d - m, m) = inner(:n, m, after(i, macro%n))
+         c(:n, 0, m) = inner(:n, m, i)
+      end do
+      if (d == 4) then                              ! the bubble
+         c(:n, 1, 2) = 0.0_wp
+         c(macro%n_outline + i, 1, 2) = 1.0_wp
+      end if
+      c(:n, :d, 0) = along(:n, :d)
+      c(:n, :d - 1, 1) = next(:n, :d - 1)
+      g = macro%centre - macro%corner(:, after(i, macro%n))
+      g = [-g(2), g(1)]*(0.5_wp/macro%area(i))
+      h = macro%corner(:, i) - macro%centre
+      h = [-h(2), h(1)]*(0.5_wp/macro%area(i))
+      w(:, 1) = d*(d - 1)*[g(2)**2, g(1)**2, -g(1)*g(2)]
+      w(:, 2) = d*(d - 1)*[2*g(2)*h(2), 2*g(1)*h(1), -(g(1)*h(2) + g(2)*h(1))]
+      w(:, 3) = d*(d - 1)*[h(2)**2, h(1)**2, -h(1)*h(2)]
       do k = 1, macro%n_coefficients
-         do r = 1, 3
-            do s = 1, r
-               a = EXPONENTS(:, k, macro%degree)
-               a(r) = a(r) + 1
-               a(s) = a(s) + 1
-               c = coefficient(a)
-               w = merge(1, 2, r == s)*d*(d - 1)
-               of_c = w*[g(2, r)*g(2, s), g(1, r)*g(1, s), -0.5_wp*(g(1, r)*g(2, s) + g(2, r)*g(1, s))]
-               do j = 1, macro%n_unknowns
-                  macro%stress(:, k, i, j) = macro%stress(:, k, i, j) + of_c*c(j)
-               end do
-            end do
+         p = EXPONENTS(2, k, macro%degree)
+         q = EXPONENTS(3, k, macro%degree)
+         do j = 1, n
+            d11 = c(j, p, q) - 2*c(j, p, q + 1) + c(j, p, q + 2)
+            d12 = c(j, p + 1, q) - c(j, p, q + 1) - c(j, p + 1, q + 1) + c(j, p, q + 2)
+            d22 = c(j, p + 2, q) - 2*c(j, p + 1, q + 1) + c(j, p, q + 2)
+            macro%stress(j, 1, k, i) = w(1, 1)*d11 + w(1, 2)*d12 + w(1, 3)*d22
+            macro%stress(j, 2, k, i) = w(2, 1)*d11 + w(2, 2)*d12 + w(2, 3)*d22
+            macro%stress(j, 3, k, i) = w(3, 1)*d11 + w(3, 2)*d12 + w(3, 3)*d22
          end do
       end do
-
-   contains
-
-      !> The coefficient of phi with these exponents.
-      pure function coefficient(exponent) result(c)
-         integer(ip), intent(in) :: exponent(3)
-         real(wp) :: c(size(along, 1))
-
-         if (exponent(3) == 0) then
-            c = along(:, exponent(2))
-         else if (exponent(3) == 1) then
-            c = next(:, exponent(2))
-         else if (exponent(2) == 0) then
-            c = inner(:, exponent(3), i)
-         else if (exponent(1) == 0) then
-            c = inner(:, exponent(3), after(i, macro%n))
-         else
-            c = 0.0_wp
-            c(macro%n_outline + i) = 1.0_wp
-         end if
-      end function coefficient
-
    end subroutine differentiate
-
-   !> Gradients of the barycentric coordinates of a triangle.
-   pure function gradients_of(a, b, c, area) result(g)
-      real(wp), intent(in) :: a(2), b(2), c(2), area
-      real(wp) :: g(2, 3)
-
-      g(:, 1) = [b(2) - c(2), c(1) - b(1)]
-      g(:, 2) = [c(2) - a(2), a(1) - c(1)]
-      g(:, 3) = [a(2) - b(2), b(1) - a(1)]
-      g = g/(2*area)
-   end function gradients_of
 
    !> Where the pieces meet: the centroid, or where the diagonals cross.
    pure function inner_point(v) result(c)

@@ -4,8 +4,10 @@
 !> class of its own.
 module atrito_element_classes
    use atrito_assembly, only: fem_t, form_t, has_form, take_form
+   use atrito_faces, only: list_node_elements, node_elements_t
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: mesh_t
    implicit none (type, external)
    private
    public :: element_classes_t, find_classes, given_of
@@ -48,6 +50,7 @@ contains
          latest = k
          classes%of_element(e) = number(k)
       end do
+      if (2*classes%n > fem%mesh%n_elements) call follow_nodes(fem%mesh, classes)
       call list_holders(classes%n, reshape(classes%of_element, [1_ip, size(classes%of_element, kind=ip)]), classes%first, &
                         classes%member)
 
@@ -61,6 +64,27 @@ contains
       end function is_like
 
    end subroutine find_classes
+
+   !> Numbers classes as the nodes meet them one after the other, so that what is kept for the elements round a node lies together;
+   !> the elements of a mesh of triangles may come in any order.
+   subroutine follow_nodes(mesh, classes)
+      type(mesh_t), intent(in) :: mesh
+      type(element_classes_t), intent(inout) :: classes
+      type(node_elements_t) :: around
+      integer(ip) :: number(classes%n), k, n
+
+      around = list_node_elements(mesh)
+      number = 0
+      n = 0
+      do k = 1, size(around%list, kind=ip)
+         associate (class => classes%of_element(around%list(k)))
+            if (number(class) > 0) cycle
+            n = n + 1
+            number(class) = n
+         end associate
+      end do
+      classes%of_element = number(classes%of_element)
+   end subroutine follow_nodes
 
    !> What is given of an element: displacements of its nodes less those of the first one and those of its own strain, then
    !> temperatures where there are any.

@@ -16,9 +16,9 @@
 !> Instead of x itself, any columns of it may be given (`given`) and x is what is taken of each: an element that is like no other
 !> one, or a part of one, needs its own x alone, for which little work is to be done.
 module atrito_element_energy
-   use atrito_airy_stress, only: macro_t, make_macro, piece_values, MOST_COEFFICIENTS, MOST_PIECES
+   use atrito_airy_stress, only: macro_t, make_macro, piece_values, MOST_COEFFICIENTS, MOST_PIECES, MOST_UNKNOWNS
    use atrito_assembly, only: fem_t, form_t, take_form
-   use atrito_dense, only: transposed_product
+   use atrito_dense, only: add_product
    use atrito_element_table, only: MOST_NODES, SHAPES
    use atrito_kinds, only: ip, wp
    use atrito_plane_state, only: COMPONENTS, compliance_matrix, elasticity_matrix, thermal_stresses
@@ -42,9 +42,9 @@ module atrito_element_energy
       integer(ip) :: n = 0                          !< numbers of the outline
       integer(ip) :: n_given = 0                    !< of x; 2 n_nodes displacements, n_nodes temperatures if any, 2 forces
       integer(ip) :: n_rows = 0                     !< with those of rest
-      real(wp), allocatable :: rows(:, :)           !< (rows, n + n_given) R_a, and behind it R_x, but that of rest
+      real(wp), allocatable :: rows(:, :)           !< (n + n_given, rows) R_a', and behind it R_x', but that of rest
       real(wp), allocatable :: rest(:, :)           !< (n_given, n_given) a triangle: rows of R_x where those of R_a are 0
-      real(wp), allocatable :: slopes(:, :)         !< (n, n + n_given) H, and behind it G
+      real(wp), allocatable :: slopes(:, :)         !< (n + n_given, n + n_given) H, and beside it G; R_x' R_x
    end type element_energy_t
 
    !> Of the stresses of 3, 4, 6, 8 and 9 nodes in elements with parallel sides; in others they are no polynomials.
@@ -85,7 +85,7 @@ contains
       real(wp), intent(in), optional :: part(:, :)  !< (2, 3 or 4) corners of a part, less the element's first node [L]
       real(wp), intent(in), optional :: given(:, :) !< (x, n_given) columns that x is made of; without it those of x itself
       type(rule_t) :: rule
-      real(wp) :: bubbles(MOST_ROWS, MOST_PIECES), origin(2)
+      real(wp) :: bubbles(MOST_PIECES, MOST_ROWS), origin(2)
       integer(ip) :: n_x, n_rows
 
       call take_form(fem, e, energy%form_t)
@@ -109,14 +109,20 @@ contains
       call choose_rule(energy%form_t, degree, allocated(fem%heating), rule)
       n_rows = COMPONENTS*energy%macro%n_coefficients*energy%macro%n
       call make_room_of(n_rows, energy)
-      call add_outline(rule, energy, bubbles)
+      call add_outline(rule, energy, bubbles(:energy%macro%n_unknowns - energy%n, :n_rows))
       if (present(given)) then
          call add_given(allocated(fem%heating), rule, origin, given, energy)
       else
          call add_given(allocated(fem%heating), rule, origin, unit_matrix(n_x), energy)
       end if
-      call leave_bubbles(bubbles(:n_rows, :energy%macro%n_unknowns - energy%n), energy%rows)
-      call transposed_product(energy%rows(:, :energy%n), energy%rows, energy%slopes)
+      call leave_bubbles(bubbles(:energy%macro%n_unknowns - energy%n, :n_rows), energy%rows)
+      energy%slopes = 0.0_wp
+      call add_product(energy%rows, energy%rows, energy%slopes)
+      associate (of_x => energy%slopes(energy%n + 1:, energy%n + 1:))
+         do n_x = 1, energy%n_given
+            of_x(:, n_x) = of_x(:, n_x) + matmul(energy%rest(:, n_x), energy%rest)
+         end do
+      end associate
    end subroutine make_energy
 
    !> The points on a piece: the fewest that are exact, as far as any are.
@@ -177,37 +183,43 @@ contains
 
       energy%n_rows = n_rows + energy%n_given
       fits = allocated(energy%rows)
-      if (fits) fits = size(energy%rows, 1) == n_rows .and. size(energy%rows, 2) == energy%n + energy%n_given
+      if (fits) fits = size(energy%rows, 2) == n_rows .and. size(energy%rows, 1) == energy%n + energy%n_given
       if (fits) return
       if (allocated(energy%rows)) deallocate (energy%rows, energy%rest, energy%slopes)
-      allocate (energy%rows(n_rows, energy%n + energy%n_given), energy%slopes(energy%n, energy%n + energy%n_given), &
-                energy%rest(energy%n_given, energy%n_given))
+      associate (n => energy%n + energy%n_given)
+         allocate (energy%rows(n, n_rows), energy%slopes(n, n), energy%rest(energy%n_given, energy%n_given))
+      end associate
    end subroutine make_room_of
 
    !> R_a, and the same of the bubbles.
    pure subroutine add_outline(rule, energy, bubbles)
       type(rule_t), intent(in) :: rule
       type(element_energy_t), intent(inout) :: energy
-      real(wp), intent(out) :: bubbles(:, :)
-      real(wp) :: root(COMPONENTS, COMPONENTS), stress(COMPONENTS)
-      integer(ip) :: i, j, l, q, row
+      real(wp), intent(out) :: bubbles(:, :)        !< (bubbles, rows)
+      real(wp) :: root(COMPONENTS, COMPONENTS), s(MOST_UNKNOWNS, COMPONENTS)
+      integer(ip) :: i, j, l, q, row, n_numbers
 
+      n_numbers = energy%macro%n_unknowns
       associate (macro => energy%macro, n => energy%macro%n_coefficients)
          do i = 1, macro%n
             root = sqrt(macro%area(i))*energy%root
-            do j = 1, macro%n_unknowns
-               do q = 1, n
-                  stress = 0.0_wp
-                  do l = q, n
-                     stress = stress + macro%stress(:, l, i, j)*rule%triangle(q, l)
+            do q = 1, n
+               s(:n_numbers, :) = 0.0_wp
+               do l = q, n
+                  do j = 1, n_numbers
+                     s(j, 1) = s(j, 1) + rule%triangle(q, l)*macro%stress(j, 1, l, i)
+                     s(j, 2) = s(j, 2) + rule%triangle(q, l)*macro%stress(j, 2, l, i)
+                     s(j, 3) = s(j, 3) + rule%triangle(q, l)*macro%stress(j, 3, l, i)
                   end do
-                  row = COMPONENTS*(n*(i - 1) + q - 1)
-                  if (j <= energy%n) then
-                     energy%rows(row + 1:row + 3, j) = times_root(root, stress)
-                  else
-                     bubbles(row + 1:row + 3, j - energy%n) = times_root(root, stress)
-                  end if
                end do
+               row = COMPONENTS*(n*(i - 1) + q - 1)
+               do j = 1, n_numbers
+                  s(j, 1) = root(1, 1)*s(j, 1) + root(1, 2)*s(j, 2) + root(1, 3)*s(j, 3)
+                  s(j, 2) = root(2, 2)*s(j, 2) + root(2, 3)*s(j, 3)
+                  s(j, 3) = root(3, 3)*s(j, 3)
+               end do
+               energy%rows(:energy%n, row + 1:row + 3) = s(:energy%n, :)
+               bubbles(:, row + 1:row + 3) = s(energy%n + 1:n_numbers, :)
             end do
          end do
       end associate
@@ -220,36 +232,32 @@ contains
       real(wp), intent(in) :: origin(2)             !< of the macro's corners, less the element's first node [L]
       real(wp), intent(in) :: given(:, :)           !< (x, n_given)
       type(element_energy_t), intent(inout) :: energy
-      real(wp) :: field(COMPONENTS, size(given, 1)), values(COMPONENTS, rule%n, energy%n_given), lambda(3), stress(COMPONENTS)
-      real(wp) :: rest(COMPONENTS*rule%n*energy%macro%n, energy%n_given)
-      integer(ip) :: i, j, k, l, q, row
+      real(wp) :: stress(COMPONENTS, MOST_GIVEN), values(COMPONENTS, MOST_PLACES, MOST_GIVEN), lambda(3), along(COMPONENTS)
+      real(wp) :: rest(COMPONENTS*MOST_PLACES*MOST_PIECES, MOST_GIVEN), root(COMPONENTS, COMPONENTS)
+      integer(ip) :: i, j, k, q, row
 
       associate (macro => energy%macro, n => energy%macro%n_coefficients)
          do i = 1, macro%n
             do k = 1, rule%n
                lambda = rule%place(:, k)
-               call given_field(energy, is_heated, origin + lambda(1)*macro%corner(:, i) &
-                                + lambda(2)*macro%corner(:, 1 + mod(i, macro%n)) + lambda(3)*macro%centre, field)
+               call given_stresses(energy, is_heated, origin + lambda(1)*macro%corner(:, i) + &
+                                   lambda(2)*macro%corner(:, 1 + mod(i, macro%n)) + lambda(3)*macro%centre, given, stress)
+               root = sqrt(rule%weight(k)*macro%area(i))*energy%root
                do j = 1, energy%n_given
-                  stress = 0.0_wp
-                  do l = 1, size(given, 1, kind=ip)
-                     stress = stress + field(:, l)*given(l, j)
-                  end do
-                  values(:, k, j) = times_root(sqrt(rule%weight(k)*macro%area(i))*energy%root, stress)
+                  values(:, k, j) = times_root(root, stress(:, j))
                end do
             end do
             do j = 1, energy%n_given
                do q = 1, n
+                  along = 0.0_wp
+                  do k = 1, rule%n
+                     along = along + values(:, k, j)*rule%basis(k, q)
+                  end do
+                  do k = 1, rule%n
+                     values(:, k, j) = values(:, k, j) - along*rule%basis(k, q)
+                  end do
                   row = COMPONENTS*(n*(i - 1) + q - 1)
-                  associate (along => energy%rows(row + 1:row + 3, energy%n + j))
-                     along = 0.0_wp
-                     do k = 1, rule%n
-                        along = along + values(:, k, j)*rule%basis(k, q)
-                     end do
-                     do k = 1, rule%n
-                        values(:, k, j) = values(:, k, j) - along*rule%basis(k, q)
-                     end do
-                  end associate
+                  energy%rows(energy%n + j, row + 1:row + 3) = along
                end do
                do k = 1, rule%n
                   row = COMPONENTS*(rule%n*(i - 1) + k - 1)
@@ -258,51 +266,65 @@ contains
             end do
          end do
          energy%rest = 0.0_wp                       ! as many polynomials as points: nothing is left
-         if (rule%n > n) call make_orthogonal(rest, energy%rest)
+         if (rule%n > n) call make_orthogonal(rest(:COMPONENTS*rule%n*macro%n, :energy%n_given), energy%rest)
       end associate
    end subroutine add_given
 
-   !> s_b - s_h at a place by the numbers of x.
-   pure subroutine given_field(energy, is_heated, place, field)
+   !> s_b - s_h at a place, of given columns.
+   pure subroutine given_stresses(energy, is_heated, place, given, stress)
       type(element_energy_t), intent(in) :: energy
       logical, intent(in) :: is_heated
       real(wp), intent(in) :: place(2)              !< less the element's first node [L]
-      real(wp), intent(out) :: field(:, :)          !< (COMPONENTS, x)
-      real(wp) :: value(MOST_NODES)
-      integer(ip) :: j, l
+      real(wp), intent(in) :: given(:, :)           !< (x, n_given)
+      real(wp), intent(out) :: stress(:, :)         !< (COMPONENTS, n_given)
+      real(wp) :: g(2, MOST_NODES), value(MOST_NODES), e(COMPONENTS), theta
+      integer(ip) :: j, k, l
 
-      field = 0.0_wp
-      associate (n => energy%shape)
-         call take_field(n, energy%x(:, :n), natural_place(n, energy%x(:, :n), place), -energy%elasticity, field, value)
-         l = 2*n
-         if (is_heated) then
-            do j = 1, n
-               field(:, l + j) = energy%heat(:COMPONENTS)*value(j)
+      associate (n => energy%shape, c => energy%elasticity)
+         call take_gradients(n, energy%x(:, :n), natural_place(n, energy%x(:, :n), place), is_heated, g, value)
+         do j = 1, size(given, 2, kind=ip)
+            e = 0.0_wp
+            do k = 1, n
+               associate (u => given(2*k - 1, j), v => given(2*k, j))
+                  e = e + [g(1, k)*u, g(2, k)*v, g(2, k)*u + g(1, k)*v]
+               end associate
             end do
-            l = l + n
-         end if
+            stress(:, j) = -(c(:, 1)*e(1) + c(:, 2)*e(2) + c(:, 3)*e(3))
+            l = 2*n
+            if (is_heated) then
+               theta = 0.0_wp
+               do k = 1, n
+                  theta = theta + value(k)*given(l + k, j)
+               end do
+               stress(:, j) = stress(:, j) + energy%heat(:COMPONENTS)*theta
+               l = l + n
+            end if
+            stress(:2, j) = stress(:2, j) - place*given(l + 1:l + 2, j)
+         end do
       end associate
-      field(1, l + 1) = -place(1)
-      field(2, l + 2) = -place(2)
-   end subroutine given_field
+   end subroutine given_stresses
 
    !> Makes all columns orthogonal to those of the bubbles.
    !>
    !> A bubble is an Airy function that is 0 with its gradient all along the outline, so no other element sees its number: for any
    !> a and x it is the one for which E is least. |R_a a + R_x x + B b|^2 is least over b where B'(R_a a + R_x x + B b) = 0, and
    !> then is |P R_a a + P R_x x|^2, P = 1 - B B' being the projection on what is orthogonal to the columns of B.
-   subroutine leave_bubbles(bubbles, rows)
-      real(wp), intent(inout), contiguous :: bubbles(:, :)
-      real(wp), intent(inout), contiguous :: rows(:, :)
-      real(wp) :: triangle(size(bubbles, 2), size(bubbles, 2)), parts(size(bubbles, 2), size(rows, 2))
-      integer(ip) :: i, j
+   pure subroutine leave_bubbles(bubbles, rows)
+      real(wp), intent(in) :: bubbles(:, :)         !< (bubbles, rows)
+      real(wp), intent(inout) :: rows(:, :)         !< (columns, rows)
+      real(wp) :: orthogonal(size(rows, 2), size(bubbles, 1)), triangle(size(bubbles, 1), size(bubbles, 1)), part(size(rows, 1))
+      integer(ip) :: i, r
 
       if (size(bubbles) == 0) return
-      call make_orthogonal(bubbles, triangle)
-      call transposed_product(bubbles, rows, parts)
-      do j = 1, size(rows, 2, kind=ip)
-         do i = 1, size(bubbles, 2, kind=ip)
-            rows(:, j) = rows(:, j) - bubbles(:, i)*parts(i, j)
+      orthogonal = transpose(bubbles)
+      call make_orthogonal(orthogonal, triangle)
+      do i = 1, size(bubbles, 1, kind=ip)
+         part = 0.0_wp
+         do r = 1, size(rows, 2, kind=ip)
+            part = part + rows(:, r)*orthogonal(r, i)
+         end do
+         do r = 1, size(rows, 2, kind=ip)
+            rows(:, r) = rows(:, r) - part*orthogonal(r, i)
          end do
       end do
    end subroutine leave_bubbles
@@ -348,13 +370,17 @@ contains
       real(wp), intent(in) :: x(:)                  !< (n_given) of each given column; without them displacements less those of
       !< the first node [L], temperatures, thickness times force per volume [F/L^2]
       real(wp), intent(out) :: rows(:)              !< (n_rows) [(F L)^(1/2)]
-      integer(ip) :: j, n
+      integer(ip) :: j, n, r
 
-      n = size(energy%rows, 1, kind=ip)
+      n = size(energy%rows, 2, kind=ip)
       rows = 0.0_wp
+      do r = 1, n
+         do j = 1, energy%n_given
+            rows(r) = rows(r) + energy%rows(energy%n + j, r)*x(j)
+         end do
+      end do
       do j = 1, energy%n_given
          if (x(j) == 0.0_wp) cycle                  ! the first node, forces that are not there
-         rows(:n) = rows(:n) + energy%rows(:, energy%n + j)*x(j)
          rows(n + 1:n + j) = rows(n + 1:n + j) + energy%rest(:j, j)*x(j)
       end do
    end subroutine given_rows
@@ -365,12 +391,11 @@ contains
       real(wp), intent(in) :: x(:)                  !< (n_given)
       real(wp), intent(in) :: outline(:)            !< (n)
       real(wp) :: rows(energy%n_rows)
-      integer(ip) :: j, n
+      integer(ip) :: r
 
-      n = size(energy%rows, 1, kind=ip)
       call given_rows(energy, x, rows)
-      do j = 1, energy%n
-         rows(:n) = rows(:n) + energy%rows(:, j)*outline(j)
+      do r = 1, size(energy%rows, 2, kind=ip)
+         rows(r) = rows(r) + dot_product(energy%rows(:energy%n, r), outline)
       end do
       difference = dot_product(rows, rows)
    end function energy_difference
@@ -381,42 +406,47 @@ contains
       type(fem_t), intent(in) :: fem
       type(form_t), intent(in) :: form
       real(wp) :: field(COMPONENTS*MOST_PIECES, MOST_GIVEN)
-      real(wp) :: of_u(COMPONENTS, 2*MOST_NODES), value(MOST_NODES), heat(COMPONENTS + 1)
+      real(wp) :: g(2, MOST_NODES), value(MOST_NODES), heat(COMPONENTS + 1), c(COMPONENTS, COMPONENTS)
       integer(ip) :: i, j, n
 
       n = form%shape
       field = 0.0_wp
       associate (section => fem%sections(form%section))
          heat = section%thickness*section%expansion*thermal_stresses(section, form%state)
+         c = section%thickness*elasticity_matrix(section, form%state)
          do i = 1, SHAPES(n)%n_corners
-            call take_field(n, form%x(:, :n), SHAPES(n)%place(:, i), &
-                            section%thickness*elasticity_matrix(section, form%state), of_u, value)
-            field(3*i - 2:3*i, :2*n) = of_u(:, :2*n)
+            call take_gradients(n, form%x(:, :n), SHAPES(n)%place(:, i), allocated(fem%heating), g, value)
             do j = 1, n
-               field(3*i - 2:3*i, 2*n + j) = -heat(:COMPONENTS)*value(j)
+               field(3*i - 2:3*i, 2*j - 1) = c(:, 1)*g(1, j) + c(:, 3)*g(2, j)
+               field(3*i - 2:3*i, 2*j) = c(:, 2)*g(2, j) + c(:, 3)*g(1, j)
+               if (allocated(fem%heating)) field(3*i - 2:3*i, 2*n + j) = -heat(:COMPONENTS)*value(j)
             end do
          end do
       end associate
    end function corner_stresses
 
-   !> The stresses that displacements of the nodes make at a place, and the shape functions there.
-   pure subroutine take_field(n, x, xi, elasticity, field, value)
+   !> Shape functions at a place, and their gradients.
+   pure subroutine take_gradients(n, x, xi, is_heated, g, value)
       integer(ip), intent(in) :: n
-      real(wp), intent(in) :: x(:, :), xi(2), elasticity(COMPONENTS, COMPONENTS)
-      real(wp), intent(out) :: field(:, :)          !< (COMPONENTS, 2n)
-      real(wp), intent(out) :: value(:)
-      real(wp) :: dn(n, 2), j(2, 2), g(2)
+      real(wp), intent(in) :: x(:, :), xi(2)
+      real(wp), intent(out) :: g(:, :)              !< (2, n) [1/L]
+      logical, intent(in) :: is_heated              !< shape functions are wanted
+      real(wp), intent(inout) :: value(:)
+      real(wp) :: dn(MOST_NODES, 2), j(2, 2)
       integer(ip) :: k
 
-      value(:n) = shape_values(n, xi)
-      dn = shape_gradients(n, xi)
-      j = inverse(jacobian(x, dn))
+      if (is_heated) value(:n) = shape_values(n, xi)
+      if (n == 4) then                              ! most there are: at once
+         dn(:4, 1) = 0.25_wp*[xi(2) - 1, 1 - xi(2), 1 + xi(2), -1 - xi(2)]
+         dn(:4, 2) = 0.25_wp*[xi(1) - 1, -1 - xi(1), 1 + xi(1), 1 - xi(1)]
+      else
+         dn(:n, :) = shape_gradients(n, xi)
+      end if
+      j = inverse(jacobian(x, dn(:n, :)))
       do k = 1, n
-         g = [dn(k, 1)*j(1, 1) + dn(k, 2)*j(2, 1), dn(k, 1)*j(1, 2) + dn(k, 2)*j(2, 2)]
-         field(:, 2*k - 1) = elasticity(:, 1)*g(1) + elasticity(:, 3)*g(2)
-         field(:, 2*k) = elasticity(:, 2)*g(2) + elasticity(:, 3)*g(1)
+         g(:, k) = [dn(k, 1)*j(1, 1) + dn(k, 2)*j(2, 1), dn(k, 1)*j(1, 2) + dn(k, 2)*j(2, 2)]
       end do
-   end subroutine take_field
+   end subroutine take_gradients
 
    !> dx/dxi.
    pure function jacobian(x, dn) result(j)
@@ -441,39 +471,39 @@ contains
       i(:, 2) = [-m(1, 2), m(1, 1)]/det
    end function inverse
 
-   !> xi of a place, by Newton's method from the middle: of a quadrilateral with straight sides by its corners, and where its centre
-   !> may be elsewhere, from there by all nodes.
+   !> xi of a place: of an element with straight sides by its corners, and where its centre may be elsewhere, by Newton's method
+   !> from there.
+   !>
+   !> In a quadrilateral r = x - c_1 = c_2 xi + c_3 eta + c_4 xi eta lies along c_3 + c_4 xi from the end of c_2 xi:
+   !>
+   !>     (r - c_2 xi) x (c_3 + c_4 xi) = 0,  or  r x c_3 - b xi - (c_2 x c_4) xi^2 = 0,    b = c_2 x c_3 - r x c_4,
+   !>
+   !> b being the Jacobian at (-xi, -eta), which is positive, too.
    pure function natural_place(n, x, place) result(xi)
       integer(ip), intent(in) :: n
       real(wp), intent(in) :: x(:, :), place(2)
       real(wp) :: xi(2)
-      real(wp) :: j(2, 2), r(2), step(2), of(2, 4), value(n)
+      real(wp) :: j(2, 2), r(2), step(2), c(2, 4), along(2), b, value(MOST_NODES)
       integer(ip) :: i, k
 
-      of = 0.0_wp                                   ! x = of_1 + of_2 xi + of_3 eta + of_4 xi eta
       if (SHAPES(n)%n_corners == 3) then
-         of(:, 1) = x(:, 1)
-         of(:, 2) = x(:, 2) - x(:, 1)
-         of(:, 3) = x(:, 3) - x(:, 1)
-      else
-         of(:, 1) = 0.25_wp*(x(:, 1) + x(:, 2) + x(:, 3) + x(:, 4))
-         of(:, 2) = 0.25_wp*(x(:, 2) + x(:, 3) - x(:, 1) - x(:, 4))
-         of(:, 3) = 0.25_wp*(x(:, 3) + x(:, 4) - x(:, 1) - x(:, 2))
-         of(:, 4) = 0.25_wp*(x(:, 1) + x(:, 3) - x(:, 2) - x(:, 4))
+         j(:, 1) = x(:, 2) - x(:, 1)
+         j(:, 2) = x(:, 3) - x(:, 1)
+         xi = matmul(inverse(j), place - x(:, 1))
+         return
       end if
-      xi = 0.0_wp
-      do i = 1, MOST_STEPS
-         r = place - of(:, 1) - of(:, 2)*xi(1) - of(:, 3)*xi(2) - of(:, 4)*(xi(1)*xi(2))
-         j(:, 1) = of(:, 2) + of(:, 4)*xi(2)
-         j(:, 2) = of(:, 3) + of(:, 4)*xi(1)
-         j = inverse(j)
-         step = [j(1, 1)*r(1) + j(1, 2)*r(2), j(2, 1)*r(1) + j(2, 2)*r(2)]
-         xi = xi + step
-         if (maxval(abs(step)) <= ENOUGH) exit      ! what is left is its square
-      end do
+      c(:, 1) = 0.25_wp*(x(:, 1) + x(:, 2) + x(:, 3) + x(:, 4))
+      c(:, 2) = 0.25_wp*(x(:, 2) + x(:, 3) - x(:, 1) - x(:, 4))
+      c(:, 3) = 0.25_wp*(x(:, 3) + x(:, 4) - x(:, 1) - x(:, 2))
+      c(:, 4) = 0.25_wp*(x(:, 1) + x(:, 3) - x(:, 2) - x(:, 4))
+      r = place - c(:, 1)
+      b = cross(c(:, 2), c(:, 3)) - cross(r, c(:, 4))
+      xi(1) = 2*cross(r, c(:, 3))/(b + sqrt(max(b**2 + 4*cross(r, c(:, 3))*cross(c(:, 2), c(:, 4)), 0.0_wp)))
+      along = c(:, 3) + xi(1)*c(:, 4)
+      xi(2) = dot_product(r - xi(1)*c(:, 2), along)/dot_product(along, along)
       if (n < 9) return
       do i = 1, MOST_STEPS
-         value = shape_values(n, xi)
+         value(:n) = shape_values(n, xi)
          r = place
          do k = 1, n
             r = r - x(:, k)*value(k)
@@ -484,6 +514,12 @@ contains
          if (maxval(abs(step)) <= ENOUGH) exit
       end do
    end function natural_place
+
+   pure real(wp) function cross(a, b)
+      real(wp), intent(in) :: a(2), b(2)
+
+      cross = a(1)*b(2) - a(2)*b(1)
+   end function cross
 
    !> A triangle or a parallelogram.
    pure logical function is_affine(x)

@@ -1,15 +1,15 @@
 !> Stresses in equilibrium with tractions along all sides, and their distance from the stresses of displacements.
 module atrito_equilibrium_stress
-   use atrito_airy_stress, only: outline_of_tractions, volume_tractions
+   use atrito_airy_stress, only: outline_of_tractions, volume_tractions, MOST_OUTLINE
    use atrito_assembly, only: fem_t
    use atrito_cut_elements, only: side_cuts_t, cut_difference, is_cut
    use atrito_element_classes, only: element_classes_t, given_of
-   use atrito_element_energy, only: element_energy_t, energy_difference, given_rows, make_energy, MOST_GIVEN
+   use atrito_element_energy, only: element_energy_t, energy_difference, make_energy, MOST_GIVEN
    use atrito_element_table, only: CORNERS_OF
    use atrito_kinds, only: ip, wp
    use atrito_mesh_sides, only: chains_t, mesh_sides_t
    use atrito_proof_loads, only: proof_loads_t
-   use atrito_star_sweeps, only: outlines_t, sweep_stars
+   use atrito_star_sweeps, only: outlines_t, pack_energy, packed_size, sweep_stars
    implicit none (type, external)
    private
    public :: sum_stresses, sum_again
@@ -36,7 +36,6 @@ contains
       real(wp), intent(inout) :: residual           !< of the equilibrium; >= what outlines are open by, over the largest force
       integer(ip), allocatable :: cut(:)            ! elements
       type(element_energy_t) :: energy              ! of a class
-      real(wp), allocatable :: rows(:)
       integer(ip) :: degree, most, c
       real(wp) :: gain, left, open, most_open, largest, least
       real(wp) :: of_stresses                       ! energy of those of the displacements
@@ -44,12 +43,14 @@ contains
 
       degree = ubound(loads%traction, 2, kind=ip)
       outlines%degree = degree
-      outlines%class_of = classes%of_element
+      outlines%class_of = classes%of_element(classes%member)
+      allocate (outlines%place(fem%mesh%n_elements))
+      outlines%place(classes%member) = [(c, c=1, fem%mesh%n_elements)]
       most = maxval(outline_size(fem%mesh%shape(:fem%mesh%n_elements), degree))
       cut = pack([(c, c=1, fem%mesh%n_elements)], [(is_cut(cuts, sides, c), c=1, fem%mesh%n_elements)])
       associate (n => fem%mesh%n_elements)
-         allocate (outlines%h(most, most, classes%n + size(cut)), outlines%a(most, n), outlines%slope(most, n), &
-                   outlines%energy(n), source=0.0_wp)
+         allocate (outlines%h(packed_size(most), classes%n), outlines%of_cut(most, most, size(cut)), outlines%a(most, n), &
+                   outlines%slope(most, n), outlines%energy(n), source=0.0_wp)
       end associate
       of_stresses = 0.0_wp
       most_open = 0.0_wp
@@ -60,7 +61,7 @@ contains
       residual = max(residual, most_open/max(largest, tiny(open)))
       do c = 1, size(cut, kind=ip)
          call begin_cut(fem, sides, cuts, loads, u, cut(c), classes%n + c, outlines)
-         if (outlines%energy(cut(c)) < 0.0_wp) return
+         if (outlines%energy(outlines%place(cut(c))) < 0.0_wp) return
       end do
       left = sum(outlines%energy)
       least = merge(LITTLE, LITTLE_OF_LARGE, fem%mesh%n_elements <= LARGE)
@@ -78,32 +79,32 @@ contains
       !> Outlines and slopes of the energy of the elements of a class, and their energies.
       subroutine begin_class(c)
          integer(ip), intent(in) :: c
-         real(wp) :: x(MOST_GIVEN)
+         real(wp) :: x(MOST_GIVEN), y(MOST_OUTLINE + MOST_GIVEN), of_x
          integer(ip) :: i, j
 
          call make_class_energy(fem, loads, u, classes%member(classes%first(c):classes%first(c + 1) - 1), degree, energy)
-         outlines%h(:energy%n, :energy%n, c) = energy%slopes(:, :energy%n)
-         if (.not. allocated(rows)) allocate (rows(energy%n_rows))
-         if (size(rows) /= energy%n_rows) rows = spread(0.0_wp, 1, energy%n_rows)
+         call pack_energy(energy%slopes(:energy%n, :energy%n), c, outlines)
          do i = classes%first(c), classes%first(c + 1) - 1
             associate (e => classes%member(i), n => energy%n, corners => energy%macro%n)
                call outline_of_tractions(energy%macro%corner(:, :corners), &
                                          tractions_around(sides, loads, e, energy%macro%corner(:, :corners)), &
-                                         outlines%a(:n, e), open)
+                                         outlines%a(:n, i), open)
                most_open = max(most_open, open)
-               largest = max(largest, maxval(abs(outlines%a(2:3*corners:3, e))), maxval(abs(outlines%a(3:3*corners:3, e))))
+               largest = max(largest, maxval(abs(outlines%a(2:3*corners:3, i))), maxval(abs(outlines%a(3:3*corners:3, i))))
                call take_given(fem, loads, u, e, energy, x)
-               call given_rows(energy, x(:energy%n_given), rows)
+               y = 0.0_wp
                do j = 1, energy%n_given
                   if (x(j) == 0.0_wp) cycle
-                  outlines%slope(:n, e) = outlines%slope(:n, e) + energy%slopes(:, n + j)*x(j)
+                  y(:n + energy%n_given) = y(:n + energy%n_given) + energy%slopes(:, n + j)*x(j)
                end do
-               outlines%energy(e) = dot_product(rows, rows) + dot_product(outlines%a(:n, e), outlines%slope(:n, e))
-               of_stresses = of_stresses + dot_product(rows, rows)
+               of_x = dot_product(x(:energy%n_given), y(n + 1:n + energy%n_given))
+               of_stresses = of_stresses + of_x
+               of_x = of_x + dot_product(outlines%a(:n, i), y(:n))
                do j = 1, n
-                  outlines%slope(:n, e) = outlines%slope(:n, e) + energy%slopes(:, j)*outlines%a(j, e)
+                  y(:n) = y(:n) + energy%slopes(:n, j)*outlines%a(j, i)
                end do
-               outlines%energy(e) = outlines%energy(e) + dot_product(outlines%a(:n, e), outlines%slope(:n, e))
+               outlines%slope(:n, i) = y(:n)
+               outlines%energy(i) = of_x + dot_product(outlines%a(:n, i), y(:n))
             end associate
          end do
       end subroutine begin_class
@@ -137,10 +138,19 @@ contains
       integer(ip), intent(in) :: e
       type(element_energy_t), intent(in) :: energy
       real(wp), intent(inout) :: x(:)
-      integer(ip) :: n
+      real(wp) :: turn
+      integer(ip) :: n, k
 
       x(1) = 1.0_wp
-      if (energy%n_given > 1) call given_with_loads(fem, loads, u, e, x, n)
+      if (energy%n_given == 1) return
+      call given_with_loads(fem, loads, u, e, x, n)
+      associate (far => energy%x(:, 3), at => energy%x)  ! the rotation of corner 3 about the first one makes no stress, and squares
+         turn = (far(1)*x(6) - far(2)*x(5))/(far(1)**2 + far(2)**2)
+         do k = 2, energy%shape
+            x(2*k - 1) = x(2*k - 1) + turn*at(2, k)
+            x(2*k) = x(2*k) - turn*at(1, k)
+         end do
+      end associate
    end subroutine take_given
 
    subroutine given_with_loads(fem, loads, u, e, x, n)
@@ -168,11 +178,11 @@ contains
       real(wp) :: x(MOST_GIVEN)
       integer(ip) :: n_x
 
-      associate (n => outline_size(fem%mesh%shape(e), outlines%degree))
+      associate (n => outline_size(fem%mesh%shape(e), outlines%degree), i => outlines%place(e))
          call given_with_loads(fem, loads, u, e, x, n_x)
-         outlines%class_of(e) = class
-         call cut_difference(fem, sides, cuts, e, x(:n_x), outlines%a(:n, e), outlines%energy(e), outlines%h(:n, :n, class), &
-                             outlines%slope(:n, e))
+         outlines%class_of(i) = class
+         call cut_difference(fem, sides, cuts, e, x(:n_x), outlines%a(:n, i), outlines%energy(i), &
+                             outlines%of_cut(:n, :n, class - size(outlines%h, 2)), outlines%slope(:n, i))
       end associate
    end subroutine begin_cut
 
@@ -230,7 +240,7 @@ contains
                if (is_cut(cuts, sides, e)) then
                   call given_with_loads(fem, loads, u, e, x, n)
                   call cut_difference(fem, sides, cuts, e, x(:n), &
-                                      outlines%a(:outline_size(fem%mesh%shape(e), outlines%degree), e), outlines%energy(e))
+                                      outlines%a(:outline_size(fem%mesh%shape(e), outlines%degree), i), outlines%energy(i))
                else
                   if (.not. is_made) then
                      call make_class_energy(fem, loads, u, classes%member(classes%first(c):classes%first(c + 1) - 1), &
@@ -238,7 +248,7 @@ contains
                   end if
                   is_made = .true.
                   call take_given(fem, loads, u, e, energy, x)
-                  outlines%energy(e) = energy_difference(energy, x(:energy%n_given), outlines%a(:energy%n, e))
+                  outlines%energy(i) = energy_difference(energy, x(:energy%n_given), outlines%a(:energy%n, i))
                end if
             end associate
          end do

@@ -159,7 +159,7 @@ contains
 
                deallocate (force)
                call sum_stresses(fem, classes, sides, chains, loads, results%u, cuts, found, terms%residual)
-               terms%share = found%energy
+               terms%share = found%energy(found%place)
                if (terms%keeps_outlines) terms%outlines = found
             end block
             if (any(terms%share < 0.0_wp)) terms%why_not = 'a side of an element faces too many others'

@@ -16,7 +16,7 @@ module atrito_proof_forecast
 
    !> Of an element by corners (3, 4) and degree (1, 2): any one, and one that is like no other one besides.
    real(wp), parameter :: BOUND_OF_ALL(3:4, 2) = reshape([1.7_wp, 2.1_wp, 3.2_wp, 4.0_wp], [2, 2])
-   real(wp), parameter :: BOUND_OF_OWN(3:4, 2) = reshape([7.0_wp, 10.8_wp, 16.4_wp, 34.0_wp], [2, 2])
+   real(wp), parameter :: BOUND_OF_OWN(3:4, 2) = reshape([5.0_wp, 7.8_wp, 12.5_wp, 26.0_wp], [2, 2])
    real(wp), parameter :: RUN_OF_ALL(3:4, 2) = reshape([1.8_wp, 2.4_wp, 6.7_wp, 9.0_wp], [2, 2])
    real(wp), parameter :: RUN_OF_OWN(3:4, 2) = reshape([1.5_wp, 2.7_wp, 6.6_wp, 12.0_wp], [2, 2])
    real(wp), parameter :: BOUND_OF_CELL(2) = [9.0_wp, 31.0_wp] !< of an element that is cut

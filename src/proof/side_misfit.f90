@@ -61,7 +61,7 @@ contains
          before = sum(of_law)
          call descend(segments, behind%strip, places, none, w, is_settled)
          call sum_terms(overlaps)
-         gain = abs(before - sum(of_law))
+         gain = min(abs(before - sum(of_law)), sum(of_law))
       end do
       if (overlaps) why_not = 'a support keeps contact sides from moving apart'
       share = share + of_elements

@@ -9,20 +9,26 @@
 !> one of them on a side along an axis, the component of the gradient that belongs to it is 0. Sides in other directions with one
 !> component known are held altogether, which costs a little of the bound.
 module atrito_star_sweeps
-   use atrito_airy_stress, only: side_place
+   use atrito_airy_stress, only: side_place, MOST_OUTLINE
    use atrito_element_table, only: CORNERS_OF
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
    use atrito_mesh_sides, only: mesh_sides_t, chains_t
    implicit none (type, external)
    private
-   public :: outlines_t, sweep_stars, solve_least
+   public :: outlines_t, sweep_stars, solve_least, pack_energy, take_columns, packed_size
 
    !> Elements by their outlines: E = a'H a + 2 g'a + c of each, elements of one class with one H.
+   !>
+   !> Linear functions phi make no stress: H times their outlines is 0. So what belongs to phi and its gradient at the first corner
+   !> follows from the rest, and the lower triangle of the rest is all that is kept, half of H. Where a side is cut it keeps its
+   !> tractions whatever the numbers are, and H is kept whole.
    type :: outlines_t
       integer(ip) :: degree = 0                     !< k
-      integer(ip), allocatable :: class_of(:)       !< (n_elements)
-      real(wp), allocatable :: h(:, :, :)           !< (numbers, numbers, classes) [1/F] and so on
+      integer(ip), allocatable :: place(:)          !< (n_elements) of an element in what follows: class by class
+      integer(ip), allocatable :: class_of(:)       !< (n_elements) of a place
+      real(wp), allocatable :: h(:, :)              !< (packed_size, classes) [1/F] and so on
+      real(wp), allocatable :: of_cut(:, :, :)      !< (numbers, numbers, classes behind these) H of elements that are cut
       real(wp), allocatable :: a(:, :)              !< (numbers, n_elements)
       real(wp), allocatable :: slope(:, :)          !< (numbers, n_elements) H a + g
       real(wp), allocatable :: energy(:)            !< (n_elements) E [F L]
@@ -31,6 +37,7 @@ module atrito_star_sweeps
    !> The system of a star. It depends on the shapes of its elements alone: in a regular mesh the next star has the same one.
    type :: star_t
       integer(ip) :: n = 0, n_free = 0              !< numbers, and those that are free
+      integer(ip) :: n_elements = 0                 !< there is room for more, as for more numbers
       integer(ip), allocatable :: class_of(:), corner(:) !< (elements)
       logical, allocatable :: is_first(:, :)        !< (2, elements) of the side before it and of the one behind it
       logical, allocatable :: is_held(:)            !< (n)
@@ -38,7 +45,10 @@ module atrito_star_sweeps
       integer(ip), allocatable :: at(:, :)          !< the same among the free ones of the star; 0: held
       real(wp), allocatable :: sign_of(:, :)
       real(wp), allocatable :: factor(:, :)         !< (n_free, n_free)
-      real(wp), allocatable :: slope(:), step(:)    !< (n_free) of its elements together
+      real(wp), allocatable :: h(:, :, :)           !< (numbers, numbers, elements) of outlines, columns of its own numbers
+      real(wp), allocatable :: z(:, :, :)           !< (numbers, 3, elements) by which the first three rows follow, where corner /= 1
+      real(wp), allocatable :: slope(:), step(:)    !< (n_free)
+      logical, allocatable :: looks_first(:, :), looks_held(:) !< as is_first and is_held, of the star that is asked for
    end type star_t
 
    real(wp), parameter :: ROUND_OFF = 1.0e-11_wp    !< a pivot below this share of its diagonal is none
@@ -55,48 +65,150 @@ contains
       type(outlines_t), intent(inout) :: outlines
       real(wp), intent(out) :: gain                 !< what the energy has become less by [F L]
       type(star_t) :: star
-      logical, allocatable :: is_held(:), is_first(:, :) ! of the next star
-      integer(ip) :: i, most
+      integer(ip) :: i
 
-      most = maxval(chains%first(2:chains%n + 1) - chains%first(:chains%n))
-      allocate (is_held(3 + (2*outlines%degree - 1)*(most + 1)), is_first(2, most))
       gain = 0.0_wp
+      call make_room(maxval(chains%first(2:chains%n + 1) - chains%first(:chains%n)), outlines, star)
       do i = 1, chains%n
          associate (first => chains%first(i), last => chains%first(i + 1) - 1)
-            call take_star(chains%element(first:last), chains%corner(first:last), chains%side(first + i - 1:last + i))
+            call take_star(mesh, sides, known, chains%element(first:last), chains%corner(first:last), &
+                           chains%side(first + i - 1:last + i), outlines, star)
             if (star%n_free > 0) call improve_star(star, chains%element(first:last), outlines, gain)
          end associate
       end do
-
-   contains
-
-      !> The system of a star, if it is not the one that is there.
-      subroutine take_star(element, corner, side)
-         integer(ip), intent(in) :: element(:), corner(:), side(0:) !< a chain
-         integer(ip) :: n, j, n_elements
-         logical :: is_same
-
-         n_elements = size(element, kind=ip)
-         n = 3 + (2*outlines%degree - 1)*(n_elements + merge(0, 1, side(0) == side(n_elements)))
-         call find_held(mesh, sides, known, side, outlines%degree, is_held(:n))
-         do j = 1, n_elements
-            is_first(1, j) = sides%of_element(corner(j), element(j)) > 0
-            is_first(2, j) = sides%of_element(corner_before(mesh, element(j), corner(j)), element(j)) > 0
-         end do
-         is_same = star%n == n
-         if (is_same) is_same = size(star%corner) == n_elements
-         if (is_same) is_same = all(star%class_of == outlines%class_of(element) .and. star%corner == corner) .and. &
-                                all(star%is_first .eqv. is_first(:, :n_elements)) .and. all(star%is_held .eqv. is_held(:n))
-         if (is_same) return
-         star%n = n
-         star%class_of = outlines%class_of(element)
-         star%corner = corner
-         star%is_first = is_first(:, :n_elements)
-         star%is_held = is_held(:n)
-         call make_star(mesh, element, side(0) == side(n_elements), outlines, star)
-      end subroutine take_star
-
    end subroutine sweep_stars
+
+   !> Room for the largest star.
+   pure subroutine make_room(most, outlines, star)
+      integer(ip), intent(in) :: most               !< elements
+      type(outlines_t), intent(in) :: outlines
+      type(star_t), intent(inout) :: star
+      integer(ip) :: m
+
+      m = 3 + 2*(2*outlines%degree - 1)
+      associate (n => 3 + (2*outlines%degree - 1)*(most + 1), numbers => size(outlines%a, 1))
+         allocate (star%class_of(most), star%corner(most), star%is_first(2, most), star%is_held(n), star%place(m, most), &
+                   star%at(m, most), star%sign_of(m, most), star%factor(n, n))
+         allocate (star%h(numbers, numbers, most), star%z(numbers, 3, most), source=0.0_wp)
+         allocate (star%slope(n), star%step(n), star%looks_first(2, most), star%looks_held(n))
+      end associate
+   end subroutine make_room
+
+   !> Numbers of H that are kept.
+   pure integer(ip) function packed_size(n)
+      integer(ip), intent(in) :: n                  !< numbers of the outline
+
+      packed_size = ((n - 3)*(n - 2))/2
+   end function packed_size
+
+   !> Keeps H of a class.
+   pure subroutine pack_energy(h, class, outlines)
+      real(wp), intent(in) :: h(:, :)
+      integer(ip), intent(in) :: class
+      type(outlines_t), intent(inout) :: outlines
+      integer(ip) :: j, l, n
+
+      n = size(h, 1, kind=ip)
+      l = 0
+      do j = 4, n
+         outlines%h(l + 1:l + n - j + 1, class) = h(j:, j)
+         l = l + n - j + 1
+      end do
+   end subroutine pack_energy
+
+   !> Columns of H of an element: of all numbers, or of some, behind the first corner.
+   !>
+   !> With z the outlines of phi = 1, x_1, x_2 (less the first corner), which at the first corner are 1 each, and H z = 0,
+   !>
+   !>     H(:, first) = -H(:, others) z(others),     H(first, :) the same of each column.
+   pure subroutine take_columns(mesh, outlines, e, h, z, place)
+      type(mesh_t), intent(in) :: mesh
+      type(outlines_t), intent(in) :: outlines
+      integer(ip), intent(in) :: e
+      real(wp), intent(inout), contiguous :: h(:, :)
+      real(wp), intent(out) :: z(:, :)              !< (numbers, 3); 0: the element has a side that is cut
+      integer(ip), intent(in), optional :: place(:) !< those that are wanted, all > 3: without rows 1 to 3
+      real(wp) :: first(MOST_OUTLINE, 3), of_first(3, 3)
+      integer(ip) :: i, j, k, l, n, c, class, start(MOST_OUTLINE)
+
+      class = outlines%class_of(outlines%place(e))
+      z = 0.0_wp
+      if (class > size(outlines%h, 2)) then
+         h = outlines%of_cut(:, :, class - size(outlines%h, 2))
+         return
+      end if
+      n = CORNERS_OF(mesh%shape(e))*(2*outlines%degree + 2)
+      call linear_outlines(mesh, e, outlines%degree, z)
+      l = 0
+      do j = 4, n
+         start(j) = l - j + 1                       ! H(i, j), i >= j, is number start + i
+         l = l + n - j + 1
+      end do
+      if (present(place)) then
+         do k = 1, size(place, kind=ip)
+            j = place(k)
+            do i = 4, j - 1
+               h(i, j) = outlines%h(start(i) + j, class)
+            end do
+            do i = j, n
+               h(i, j) = outlines%h(start(j) + i, class)
+            end do
+         end do
+         return
+      end if
+      first = 0.0_wp
+      of_first = 0.0_wp
+      do j = 4, n
+         h(j, j) = outlines%h(start(j) + j, class)
+         do c = 1, 3
+            first(j, c) = first(j, c) - h(j, j)*z(j, c)
+         end do
+         do i = j + 1, n
+            h(i, j) = outlines%h(start(j) + i, class)
+            h(j, i) = h(i, j)
+            do c = 1, 3
+               first(i, c) = first(i, c) - h(i, j)*z(j, c)
+               first(j, c) = first(j, c) - h(i, j)*z(i, c)
+            end do
+         end do
+         do c = 1, 3                                ! first(j, :) is complete
+            h(j, c) = first(j, c)
+            h(c, j) = first(j, c)
+            do i = 1, 3
+               of_first(i, c) = of_first(i, c) - first(j, i)*z(j, c)
+            end do
+         end do
+      end do
+      h(:3, :3) = of_first
+   end subroutine take_columns
+
+   !> The outlines of phi = 1, x_1, x_2, less the first corner of an element.
+   pure subroutine linear_outlines(mesh, e, degree, z)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: e, degree
+      real(wp), intent(inout) :: z(:, :)            !< (numbers, 3)
+      real(wp) :: x(2), side(2), length
+      integer(ip) :: i, c, l, n
+
+      n = CORNERS_OF(mesh%shape(e))
+      associate (nodes => mesh%nodes(:n, e))
+         do i = 1, n
+            x = mesh%x(:, nodes(i)) - mesh%x(:, nodes(1))
+            side = mesh%x(:, nodes(1 + mod(i, n))) - mesh%x(:, nodes(i))
+            length = sqrt(side(1)**2 + side(2)**2)
+            z(3*i - 2, 1) = 1.0_wp
+            z(3*i - 2, 2:3) = x
+            z(3*i - 1, 2) = 1.0_wp
+            z(3*i, 3) = 1.0_wp
+            l = side_place(n, degree, i)
+            do c = l, l + degree - 1
+               z(c, 2) = side(2)/length
+               z(c, 3) = -side(1)/length
+            end do
+            if (degree == 2) z(l + 2, :) = [1.0_wp, x(1) + 0.5_wp*side(1), x(2) + 0.5_wp*side(2)]
+         end do
+      end associate
+   end subroutine linear_outlines
 
    !> The least energy over the numbers of one star.
    !>
@@ -115,21 +227,57 @@ contains
       real(wp), intent(inout) :: gain
       integer(ip) :: j, s
 
-      star%slope = 0.0_wp
+      star%slope(:star%n_free) = 0.0_wp
       do j = 1, size(element, kind=ip)
          do s = 1, size(star%at, 1, kind=ip)
-            associate (k => star%at(s, j))
-               if (k > 0) star%slope(k) = star%slope(k) - star%sign_of(s, j)*outlines%slope(star%place(s, j), element(j))
+            associate (k => star%at(s, j), e => outlines%place(element(j)))
+               if (k > 0) star%slope(k) = star%slope(k) - star%sign_of(s, j)*outlines%slope(star%place(s, j), e)
             end associate
          end do
       end do
-      star%step = star%slope
+      star%step(:star%n_free) = star%slope(:star%n_free)
       call solve_factored(star%n_free, star%factor, star%step)
-      gain = gain + dot_product(star%slope, star%step)
+      gain = gain + dot_product(star%slope(:star%n_free), star%step(:star%n_free))
       do j = 1, size(element, kind=ip)
-         call move_outline(star%place(:, j), star%at(:, j), star%sign_of(:, j), star%step, element(j), outlines)
+         call move_outline(star, j, outlines%place(element(j)), outlines)
       end do
    end subroutine improve_star
+
+   !> The system of a star, if it is not the one that is there.
+   subroutine take_star(mesh, sides, known, element, corner, side, outlines, star)
+      type(mesh_t), intent(in) :: mesh
+      type(mesh_sides_t), intent(in) :: sides
+      logical, intent(in) :: known(:, :)
+      integer(ip), intent(in) :: element(:), corner(:), side(0:) !< a chain
+      type(outlines_t), intent(in) :: outlines
+      type(star_t), intent(inout) :: star
+      integer(ip) :: n, j, per_side, n_elements
+      logical :: is_same
+
+      n_elements = size(element, kind=ip)
+      per_side = 2*outlines%degree - 1
+      n = 3 + per_side*(n_elements + merge(0, 1, side(0) == side(n_elements)))
+      call find_held(mesh, sides, known, side, outlines%degree, star%looks_held(:n))
+      do j = 1, n_elements
+         star%looks_first(1, j) = sides%of_element(corner(j), element(j)) > 0
+         star%looks_first(2, j) = sides%of_element(corner_before(mesh, element(j), corner(j)), element(j)) > 0
+      end do
+      is_same = star%n == n .and. star%n_elements == n_elements
+      do j = 1, n_elements
+         if (.not. is_same) exit
+         is_same = star%class_of(j) == outlines%class_of(outlines%place(element(j))) .and. star%corner(j) == corner(j) .and. &
+                   all(star%is_first(:, j) .eqv. star%looks_first(:, j))
+      end do
+      if (is_same) is_same = all(star%is_held(:n) .eqv. star%looks_held(:n))
+      if (is_same) return
+      star%n = n
+      star%n_elements = n_elements
+      star%class_of(:n_elements) = outlines%class_of(outlines%place(element))
+      star%corner(:n_elements) = corner
+      star%is_first(:, :n_elements) = star%looks_first(:, :n_elements)
+      star%is_held(:n) = star%looks_held(:n)
+      call make_star(mesh, element, side(0) == side(n_elements), outlines, star)
+   end subroutine take_star
 
    !> Where the numbers of a star stand in its elements, and the factor of its system.
    subroutine make_star(mesh, element, is_round, outlines, star)
@@ -140,7 +288,7 @@ contains
       type(star_t), intent(inout) :: star           !< with what it is known by
       integer(ip) :: j, m, r, s, free(star%n)
 
-      m = 3 + 2*(2*outlines%degree - 1)
+      m = size(star%place, 1, kind=ip)
       star%n_free = 0
       do j = 1, star%n
          free(j) = 0
@@ -148,14 +296,15 @@ contains
          star%n_free = star%n_free + 1
          free(j) = star%n_free
       end do
-      if (allocated(star%place)) deallocate (star%place, star%at, star%sign_of, star%factor, star%slope, star%step)
-      allocate (star%place(m, size(element)), star%at(m, size(element)), star%sign_of(m, size(element)))
-      allocate (star%slope(star%n_free), star%step(star%n_free))
-      allocate (star%factor(star%n_free, star%n_free), source=0.0_wp)
+      star%factor(:star%n_free, :star%n_free) = 0.0_wp
       do j = 1, size(element, kind=ip)
          call find_places(j)
-         associate (h => outlines%h(:, :, star%class_of(j)), at => star%at(:, j), place => star%place(:, j), &
-                    sign_of => star%sign_of(:, j))
+         if (star%corner(j) == 1 .or. 2*size(outlines%h, 2) < size(outlines%energy)) then ! many stars are like this one
+            call take_columns(mesh, outlines, element(j), star%h(:, :, j), star%z(:, :, j))
+         else
+            call take_columns(mesh, outlines, element(j), star%h(:, :, j), star%z(:, :, j), star%place(:, j))
+         end if
+         associate (h => star%h(:, :, j), at => star%at(:, j), place => star%place(:, j), sign_of => star%sign_of(:, j))
             do s = 1, m
                if (at(s) == 0) cycle
                do r = 1, m
@@ -212,31 +361,41 @@ contains
       corner_before = merge(CORNERS_OF(mesh%shape(e)), corner - 1, corner == 1)
    end function corner_before
 
-   !> The step of a star in the numbers of one element. E changes by the step times the slopes before and behind it.
-   subroutine move_outline(place, at, sign_of, step, e, outlines)
-      integer(ip), intent(in) :: place(:), at(:)    !< among those of the element, among the free ones of the star; 0: held
-      real(wp), intent(in) :: sign_of(:), step(:)
-      integer(ip), intent(in) :: e
+   !> The step of a star in the numbers of its element j. E changes by the step times the slopes before and behind it.
+   pure subroutine move_outline(star, j, e, outlines)
+      type(star_t), intent(in) :: star
+      integer(ip), intent(in) :: j
+      integer(ip), intent(in) :: e                  !< its place
       type(outlines_t), intent(inout) :: outlines
-      real(wp) :: of_number(9), change
-      integer(ip) :: s
+      real(wp) :: of_number, slope(MOST_OUTLINE), change
+      integer(ip) :: s, n, i
 
-      associate (h => outlines%h(:, :, outlines%class_of(e)), slope => outlines%slope(:, e))
-         change = 0.0_wp
-         do s = 1, size(at, kind=ip)
-            of_number(s) = 0.0_wp
-            if (at(s) > 0) of_number(s) = sign_of(s)*step(at(s))
-            change = change + of_number(s)*slope(place(s))
+      n = size(star%h, 1, kind=ip)
+      slope = 0.0_wp
+      change = 0.0_wp
+      do s = 1, size(star%at, 1, kind=ip)
+         if (star%at(s, j) == 0) cycle
+         of_number = star%sign_of(s, j)*star%step(star%at(s, j))
+         associate (place => star%place(s, j))
+            outlines%a(place, e) = outlines%a(place, e) + of_number
+            change = change + 2*of_number*outlines%slope(place, e)
+            do i = 1, n
+               slope(i) = slope(i) + star%h(i, place, j)*of_number
+            end do
+         end associate
+      end do
+      if (star%corner(j) > 1 .and. star%z(1, 1, j) > 0.0_wp) then
+         slope(:3) = 0.0_wp
+         do i = 4, n
+            slope(1) = slope(1) - star%z(i, 1, j)*slope(i)
+            slope(2) = slope(2) - star%z(i, 2, j)*slope(i)
+            slope(3) = slope(3) - star%z(i, 3, j)*slope(i)
          end do
-         do s = 1, size(at, kind=ip)
-            if (at(s) == 0) cycle
-            outlines%a(place(s), e) = outlines%a(place(s), e) + of_number(s)
-            slope = slope + h(:, place(s))*of_number(s)
-         end do
-         do s = 1, size(at, kind=ip)
-            change = change + of_number(s)*slope(place(s))
-         end do
-      end associate
+      end if
+      do s = 1, size(star%at, 1, kind=ip)
+         if (star%at(s, j) > 0) change = change + star%sign_of(s, j)*star%step(star%at(s, j))*slope(star%place(s, j))
+      end do
+      outlines%slope(:, e) = outlines%slope(:, e) + slope(:n)
       outlines%energy(e) = outlines%energy(e) + change
    end subroutine move_outline
 
