@@ -1,12 +1,10 @@
 !> What is known of other solutions of an increment, from the matrices of its contact line.
 module atrito_increment_uniqueness
-   use atrito_contact_form, only: can_be_dense
    use atrito_contact_solution, only: contact_solution_t
-   use atrito_kinds, only: ip
    use atrito_results, only: results_t
    use atrito_scene_data, only: scene_data_t
    use atrito_timers, only: start_phase, stop_phase
-   use atrito_uniqueness, only: certify_line, judge_contraction, judge_solution
+   use atrito_uniqueness, only: certify_line, certify_scene, judge_contraction, judge_solution
    implicit none (type, external)
    private
    public :: judge_uniqueness
@@ -14,7 +12,7 @@ module atrito_increment_uniqueness
 contains
 
    !> Judges a solution, converged or not. What does not depend on the loads is found once for the matrices of the line. A solution
-   !> of the sparse form is judged where the dense one has been tried and has left its matrices.
+   !> of the sparse form has a certificate, and is judged where the dense one has been tried and has left its matrices.
    subroutine judge_uniqueness(data, solution, results)
       type(scene_data_t), intent(inout) :: data        !< certificate is made once for its matrices
       type(contact_solution_t), intent(in) :: solution !< of the increment
@@ -23,11 +21,11 @@ contains
       if (.not. data%line%has_friction) return
       call start_phase('unique')
       if (.not. allocated(data%flexibility)) then
-         results%uniqueness%nu = maxval(data%line%law%nu)
-         associate (why_not => results%uniqueness%why_not)
-            why_not = 'the sparse form has no matrix of the line'
-            if (can_be_dense(size(data%line%point, kind=ip))) why_not = 'the sparse form cannot, --contact dense may'
-         end associate
+         if (.not. allocated(data%certificate)) then
+            allocate (data%certificate)
+            call certify_scene(data%fem, data%rows, data%line, data%starts > 0 .and. .not. data%is_distributed, data%certificate)
+         end if
+         results%uniqueness = data%certificate%known
       else
          if (.not. allocated(data%certificate)) then
             allocate (data%certificate)

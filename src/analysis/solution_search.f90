@@ -40,7 +40,9 @@ contains
       allocate (others(0))
       if (data%starts == 0) return
       if (.not. (allocated(data%flexibility) .and. data%line%has_friction)) then
-         if (data%line%has_friction) results%uniqueness%why_not = 'no search either, the sparse form has no matrix'
+         if (data%line%has_friction .and. .not. results%uniqueness%up_to_nu > 0.0_wp) then
+            results%uniqueness%why_not = 'no search either, the sparse form has no matrix'
+         end if
          results%uniqueness%starts = data%starts
          return
       end if

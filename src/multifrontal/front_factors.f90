@@ -45,6 +45,7 @@ module atrito_front_factors
       integer(ip), allocatable :: waiting(:)     !< (n_classes) fronts that have not taken the update of a class
       type(subtree_t), allocatable :: subtrees(:) !< what a thread takes at a time in a solution
       logical :: shares_solves = .false.         !< solutions are worth more than one thread
+      logical, allocatable :: is_negative(:)     !< (n) by positions: pivots that have to be; not allocated: none
    end type fronts_t
 
    !> What fronts take [bytes].
@@ -290,13 +291,16 @@ contains
       real(wp), intent(inout) :: front(order, order) !< where it is assembled; of no use afterwards
       integer(ip) :: first, last, m
       integer :: no_memory
-      logical :: complete
+      logical :: complete, is_negative
 
       call assemble_front(store, c, order, fronts, front, complete)
       if (.not. complete) return
       first = fronts%first(fronts%representative(c))
       associate (factor => fronts%factors(c))
          last = first + factor%n_pivots - 1
+         is_negative = .false.
+         if (allocated(fronts%is_negative)) is_negative = any(fronts%is_negative(first:last))
+         if (is_negative) front = -front
          m = order - factor%n_pivots
          call eliminate(order, factor%n_pivots, front, factor%failed)
          call judge_pivots(order, factor%n_pivots, front, diagonal(first:last), size(diagonal, kind=ip), factor)
@@ -310,6 +314,7 @@ contains
          if (.not. factor%done) return
          call pack_columns(order, front, 1_ip, factor%n_pivots, factor%columns)
          call pack_columns(order, front, factor%n_pivots + 1, order, factor%update)
+         if (is_negative) factor%update = -factor%update
       end associate
    end subroutine factor_class
 

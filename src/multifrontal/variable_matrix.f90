@@ -7,6 +7,9 @@
 !> S = A_kk - A_ki A_ii^-1 A_ik is what the last factorisation leaves of the matrix, reduce_variable leaves f_k - A_ki A_ii^-1 f_i
 !> of a load, and expand_variable finds x_i = A_ii^-1 (f_i - A_ik x_k).
 !>
+!> Some parts of the elimination may have negative pivots in place of positive ones (take_signs): F = -L L' of their fronts. Then it is
+!> an elimination of a symmetric matrix without pivoting, and that all pivots have their signs tells how many eigenvalues are negative.
+!>
 !> Use: create_variable_matrix; then set_variable_element, factor_variable_matrix and solve_variable_matrix as often as wanted; with
 !> kept unknowns kept_values, reduce_variable and expand_variable in place of the last.
 module atrito_variable_matrix
@@ -22,7 +25,7 @@ module atrito_variable_matrix
    implicit none (type, external)
    private
    public :: variable_matrix_t, create_variable_matrix, set_variable_element, factor_variable_matrix, solve_variable_matrix, &
-             solve_at_variable, kept_values, reduce_variable, expand_variable, add_fixed_product, fixed_diagonal, &
+             solve_at_variable, take_signs, kept_values, reduce_variable, expand_variable, add_fixed_product, fixed_diagonal, &
              variable_matrix_bytes, expect_variable_factors
 
    type :: variable_matrix_t
@@ -181,6 +184,15 @@ contains
       matrix%reached = pack([(i, i=1, matrix%n)], is_reached)
    end subroutine find_way
 
+   !> Which equations have negative pivots; all of a part of the elimination have, or none.
+   subroutine take_signs(matrix, is_negative)
+      type(variable_matrix_t), intent(inout) :: matrix
+      logical, intent(in) :: is_negative(:)        !< (n)
+
+      allocate (matrix%fronts%is_negative(matrix%n))
+      matrix%fronts%is_negative(matrix%elimination%position) = is_negative
+   end subroutine take_signs
+
    !> The next factorisation takes this matrix for a variable element.
    subroutine set_variable_element(matrix, v, values)
       type(variable_matrix_t), intent(inout) :: matrix !< the front of the element becomes due
@@ -234,7 +246,11 @@ contains
       type(status_t), intent(out) :: status
       integer(ip) :: position
 
-      matrix%is_due = .true.
+      if (all(matrix%fronts%waiting(children_of(matrix%fronts, c)) > FOR_EVER/2)) then
+         matrix%is_due(:c - 1) = .false.           ! what was factored has its update, and others may not be there any more
+      else
+         matrix%is_due = .true.
+      end if
       if (.not. matrix%fronts%factors(c)%enough) call tell_of_memory(status)
       if (.not. matrix%fronts%factors(c)%enough) return
       position = matrix%fronts%first(matrix%fronts%representative(c)) + max(matrix%fronts%factors(c)%failed, 1_ip) - 1
@@ -296,6 +312,7 @@ contains
       real(wp), allocatable :: by_position(:)
 
       by_position = x
+      if (allocated(matrix%fronts%is_negative)) by_position = merge(-x, x, matrix%fronts%is_negative)
       call backward(matrix%fronts, by_position)
       x = by_position(matrix%elimination%position)
    end subroutine expand_variable

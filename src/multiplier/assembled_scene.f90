@@ -24,7 +24,7 @@ module atrito_assembled_scene
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
-   public :: assembled_scene_t, assemble_scene, assemble_numbered
+   public :: assembled_scene_t, assemble_scene, assemble_numbered, collect_scene
 
    integer(ip), parameter :: ROWS_A_POINT = 2
 

@@ -29,6 +29,8 @@ module atrito_line_certificate
       real(wp), allocatable :: way(:)               !< (tangential unknowns) directions of slip; of elastic stick a state
       real(wp) :: way_up_to_nu = 0.0_wp             !< one solution at most moves that way at every point
       real(wp) :: alpha = 1.0_wp                    !< of that proof, or of every load: states are tried with it
+      real(wp), allocatable :: ahead(:)             !< m of a state that is regular for more than nu: those near it are for nu
+      logical :: looks_ahead = .true.               !< the last one of these has served
       ! The state that was met last, and what was found of it.
       integer(ip), allocatable :: state(:)          !< (m) of the unknowns
       real(wp), allocatable :: compliance(:)        !< [L/F]

@@ -13,7 +13,7 @@
 !>
 !> with a = |W z_n|^2/2, b = |A_t z|^2/2, c = z_n'(A z)_n, d = z_t'(A z)_t. So (Kelley's method) the next alpha and gamma are those
 !> where the greatest of all cuts is least, not too far from the best so far, and the greatest there is what can be gained at most.
-!> The set of (alpha, gamma) that serve an s is convex, so there is one least; a few rounds come to within some per cent of it, and
+!> An alpha for which H is not positive is not come nearer to than half way. The set of (alpha, gamma) that serve an s is convex, so there is one least; a few rounds come to within some per cent of it, and
 !> any (alpha, gamma) will do. In the end the matrix of the best is factored: its Cholesky factor is the proof.
 module atrito_certificate_search
    use atrito_certificate_forms, only: build_certified, factor_pencil, forms_t, pencil_t
@@ -82,7 +82,7 @@ contains
       type(place_t) :: now
       type(cut_t) :: cuts(ROUNDS)
       type(pencil_t) :: pencil
-      real(wp) :: z(size(form%a, 1)), reach
+      real(wp) :: z(size(form%a, 1)), reach, ceiling
       integer :: round, n_cuts
       integer(ip) :: failed
 
@@ -90,12 +90,14 @@ contains
       now%y = first_gamma(form, forms) + 0.5_wp*now%x
       n_cuts = 0
       reach = FAR
+      ceiling = huge(ceiling)
       do round = 1, ROUNDS
          pencil%alpha = exp(now%x)
          pencil%gamma = exp(now%y)
          call factor_pencil(form, pencil, failed)
          if (failed /= 0) then
             if (abs(now%x) <= 0.0_wp) return      ! A itself
+            if (now%x > 0.0_wp) ceiling = min(ceiling, now%x)
             now%y = now%y - 0.5_wp*now%x
             now%x = 0.0_wp
             if (n_cuts > 0) now%x = 0.5_wp*(best%x + now%x)
@@ -108,6 +110,7 @@ contains
          if (now%ratio < best%ratio) best = now
          if (best%ratio*most <= BACK .or. round == ROUNDS) exit
          now = best
+         if (ceiling < huge(ceiling)) reach = min(reach, 0.5_wp*(ceiling - best%x))
          call go_downhill(cuts(:n_cuts), reach, allocated(forms%bound), now)
          reach = merge(2*reach, FAR, abs(now%x - best%x) > 0.9_wp*reach)
          if (now%ratio > GOOD_ENOUGH*best%ratio) exit
@@ -192,14 +195,17 @@ contains
       step = reach
       do i = 1, HALVINGS
          step = 0.5_wp*step
-         do side = 1, merge(4, 2, has_gamma)
+         do side = 1, merge(6, 2, has_gamma)
             next = place
             if (side <= 2) then                   ! along alpha gamma is best where it goes with its root
                next%x = place%x + merge(step, -step, side == 1)
                next%y = place%y + 0.5_wp*(next%x - place%x)
                if (abs(next%x - centre%x) > reach) cycle
-            else
+            else if (side <= 4) then
                next%y = place%y + merge(step, -step, side == 3)
+            else
+               next%x = place%x + merge(step, -step, side == 5)
+               if (abs(next%x - centre%x) > reach) cycle
             end if
             next%ratio = greatest(cuts, next)
             if (next%ratio < place%ratio) place = next

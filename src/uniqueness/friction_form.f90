@@ -21,9 +21,10 @@ module atrito_friction_form
    use atrito_dense_blocks, only: divide_by_triangle, factor_in_blocks
    use atrito_kinds, only: ip, wp
    use atrito_line_certificate, only: friction_form_t
+   use atrito_sparse_rows, only: sparse_rows_t
    implicit none (type, external)
    private
-   public :: friction_form_t, build_form, multiply_bounds
+   public :: friction_form_t, build_form, bounds_of, multiply_bounds, who_holds_along
 
    real(wp), parameter :: NONE_ALONG = 1.0e-12_wp  !< of the largest entry of a motion: it does not go along the contact
    integer, parameter :: SLOW = 6                  !< times that an operation takes of those that are done one by one
@@ -39,55 +40,67 @@ contains
       real(wp) :: g(problem%n_normal, problem%k)
       integer(ip) :: i, k
 
-      why_not = ''
       associate (n => problem%n_normal, m => problem%m)
          form%nu = maxval([0.0_wp, line%law(line%point(n + 1:))%nu])
-         do k = 1, problem%k
-            if (maxval([0.0_wp, abs(problem%g(n + 1:, k))]) > NONE_ALONG*maxval(abs(problem%g(:, k)))) then
-               why_not = 'a body is held along the contact by friction alone'
-               if (line%n_bilateral > 0) why_not = 'friction and joints hold a body along the contact'
-               return
-            end if
-         end do
+         why_not = who_holds_along([(maxval([0.0_wp, abs(problem%g(n + 1:, k))]), k=1, problem%k)], &
+                                   [(maxval(abs(problem%g(:, k))), k=1, problem%k)], line)
+         if (len(why_not) > 0) return
          form%n = n
          form%a = problem%c
          do i = 1, n
             form%a(i, i) = form%a(i, i) + line%delta(line%point(i))/line%weight(line%point(i))
          end do
-         call take_bounds(line, line%point(n + 1:), form)
+         form%w = bounds_of(line, line%point(n + 1:), n)
          g = problem%g(:n, :)
       end associate
       call take_kernel(g, form)
       call take_tangential(form)
    end subroutine build_form
 
+   !> '', or what holds a body along the contact where its motions go that way: nothing is certified then.
+   pure function who_holds_along(along, motion, line) result(text)
+      real(wp), intent(in) :: along(:), motion(:) !< the largest of each motion along a tangent, in any direction
+      type(contact_line_t), intent(in) :: line
+      character(len=:), allocatable :: text
+
+      text = ''
+      if (.not. any(along > NONE_ALONG*motion)) return
+      text = 'a body is held along the contact by friction alone'
+      if (line%n_bilateral > 0) text = 'friction and joints hold a body along the contact'
+   end function who_holds_along
+
    !> W of the points of the tangential forces.
-   pure subroutine take_bounds(line, point, form)
+   pure function bounds_of(line, point, n_normal) result(w)
       type(contact_line_t), intent(in) :: line
       integer(ip), intent(in) :: point(:)
-      type(friction_form_t), intent(inout) :: form
+      integer(ip), intent(in) :: n_normal         !< its columns, before motions are left out
+      type(sparse_rows_t) :: w
       integer(ip) :: i, k, n
+      real(wp) :: nu
 
-      form%w%n = size(point, kind=ip)
-      form%w%n_columns = form%n
+      nu = maxval([0.0_wp, line%law(point)%nu])
+      w%n = size(point, kind=ip)
+      w%n_columns = n_normal
       n = sum(line%average%first(point + 1) - line%average%first(point))
-      allocate (form%w%first(form%w%n + 1), form%w%column(n), form%w%value(n))
+      allocate (w%first(w%n + 1), w%column(n), w%value(n))
       n = 0
-      do i = 1, form%w%n
-         form%w%first(i) = n + 1
+      do i = 1, w%n
+         w%first(i) = n + 1
          associate (j => point(i))
             do k = line%average%first(j), line%average%first(j + 1) - 1
                associate (other => line%average%column(k))
                   if (line%normal(other) == 0) cycle          ! its pressure is known: the same in all solutions
                   n = n + 1
-                  form%w%column(n) = line%normal(other)
-                  form%w%value(n) = line%law(j)%nu/form%nu*line%weight(j)*line%average%value(k)/line%weight(other)
+                  w%column(n) = line%normal(other)
+                  w%value(n) = line%law(j)%nu/nu*line%weight(j)*line%average%value(k)/line%weight(other)
                end associate
             end do
          end associate
       end do
-      form%w%first(form%w%n + 1) = n + 1
-   end subroutine take_bounds
+      w%first(w%n + 1) = n + 1
+      w%column = w%column(:n)
+      w%value = w%value(:n)
+   end function bounds_of
 
    !> product = left diag(share) W Y
    subroutine multiply_bounds(form, left, share, product)

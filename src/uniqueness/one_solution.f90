@@ -29,7 +29,7 @@ module atrito_one_solution
    use atrito_line_certificate, only: friction_form_t
    implicit none (type, external)
    private
-   public :: certify_every_load, certify_way, is_regular
+   public :: certify_every_load, certify_way, is_regular, MOST
 
    real(wp), parameter :: MOST = 1.0e3_wp         !< what is certified up to here is not looked for beyond
 

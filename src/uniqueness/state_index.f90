@@ -8,7 +8,8 @@
 !> one. An index of 1 says nothing.
 !>
 !> Most states are proved to be regular down to nu = 0 by one Cholesky factor of a quarter of the matrix (is_regular); where that
-!> fails M is factored by LU. A state that is met again has the sign that it had.
+!> fails M is factored by LU. A state that is met again has the sign that it had, and one that is near another needs no factor
+!> (is_near).
 module atrito_state_index
    use atrito_bound_qp, only: bound_qp_t, FREE, AT_LOWER, AT_UPPER
    use atrito_contact_line, only: contact_line_t
@@ -24,6 +25,7 @@ module atrito_state_index
    public :: index_of_solution, meet_state
 
    real(wp), parameter :: ON_THE_EDGE = 1.0e-7_wp !< of the largest pressure, bound or gap
+   real(wp), parameter :: AHEAD = 2.0_wp          !< times nu for which a state is tried, that others may be near to it
 
 contains
 
@@ -43,6 +45,9 @@ contains
       if (is_known) certificate%sign_of = 1
       associate (nu => certificate%known%nu, share => certificate%share)
          if (certificate%sign_of == NOT_ASKED) then
+            if (is_proved_ahead(certificate)) certificate%sign_of = 1
+         end if
+         if (certificate%sign_of == NOT_ASKED) then
             if (is_regular(certificate%form, share, nu, certificate%alpha)) certificate%sign_of = 1
          end if
          if (certificate%sign_of == NOT_ASKED .and. .not. allocated(certificate%way)) then
@@ -58,6 +63,42 @@ contains
       end if
       index_of = certificate%sign_of
    end function index_of_solution
+
+   !> Whether the state is near one that was tried for more than nu; else the one that it is on its way to is tried, as far from it
+   !> as it has come from where that one was. One that serves no other state was the last.
+   logical function is_proved_ahead(certificate) result(is_proved)
+      type(line_certificate_t), intent(inout) :: certificate
+
+      is_proved = .false.
+      if (allocated(certificate%way)) return      ! alpha is another
+      associate (share => certificate%share, nu => certificate%known%nu)
+         if (.not. allocated(certificate%ahead)) certificate%ahead = 0*share
+         is_proved = is_near(certificate)
+         if (.not. is_proved .and. certificate%looks_ahead) then
+            certificate%ahead = max(-1.0_wp, min(1.0_wp, 2*share - certificate%ahead))
+            if (.not. is_regular(certificate%form, certificate%ahead, AHEAD*nu, certificate%alpha)) certificate%ahead = 0*share
+            certificate%looks_ahead = .false.
+            is_proved = is_near(certificate)
+         else
+            certificate%looks_ahead = is_proved
+         end if
+      end associate
+   end function is_proved_ahead
+
+   !> Whether a state is regular because another one, m_1, is for AHEAD nu, with the alpha of every load. The certified matrix is
+   !> H - nu R(m), R linear in m; H > AHEAD nu R(m_1), and H > up_to_nu R(m) where |m| <= 1, so for any t from 0 to 1
+   !>
+   !>     H - nu R(m) = H - t nu R(m_1) - nu R(m - t m_1) > (1 - t/AHEAD - nu max|m - t m_1|/up_to_nu) H.
+   pure logical function is_near(certificate)
+      type(line_certificate_t), intent(in) :: certificate
+      real(wp) :: t
+
+      associate (m => certificate%share, other => certificate%ahead)
+         t = dot_product(m, other)/max(dot_product(other, other), tiny(t))
+         t = max(0.0_wp, min(1.0_wp, t))
+         is_near = certificate%known%nu*maxval(abs(m - t*other)) < (1 - t/AHEAD)*certificate%known%up_to_nu
+      end associate
+   end function is_near
 
    !> Makes the state of a solution the one that is asked about: what is known of it stays where it was that before.
    pure subroutine meet_state(problem, line, solution, certificate)

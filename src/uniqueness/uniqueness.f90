@@ -8,20 +8,26 @@
 !>
 !> The largest coefficient stands for all: those of other pairs are scaled with it.
 module atrito_uniqueness
+   use atrito_assembly, only: fem_t
    use atrito_bound_qp, only: bound_qp_t
+   use atrito_constraint_rows, only: constraint_rows_t
    use atrito_contact_line, only: contact_line_t
+   use atrito_contact_rows, only: contact_rows_t
    use atrito_contact_solution, only: contact_solution_t
    use atrito_contraction, only: estimate_contraction
-   use atrito_friction_form, only: build_form
+   use atrito_friction_form, only: build_form, who_holds_along
    use atrito_friction_law, only: FRICTION_NONE
    use atrito_kinds, only: ip, wp
    use atrito_line_certificate, only: line_certificate_t
-   use atrito_one_solution, only: certify_every_load, certify_way
+   use atrito_one_solution, only: certify_every_load, certify_way, MOST
    use atrito_results, only: uniqueness_t
+   use atrito_row_entries, only: build_constraint_rows
+   use atrito_sparse_certificate, only: certify_sparse
    use atrito_state_index, only: index_of_solution, meet_state
+   use atrito_status, only: is_ok, status_t
    implicit none (type, external)
    private
-   public :: certify_line, judge_solution, judge_contraction, is_certified, LONGEST
+   public :: certify_line, certify_scene, judge_solution, judge_contraction, is_certified, LONGEST
 
    integer(ip), parameter :: LONGEST = 400        !< unknown forces of a line that is certified without being asked to
 
@@ -54,6 +60,44 @@ contains
          if (len(why_not) > 0 .or. is_certified(known)) deallocate (certificate%form)   ! no solution asks for it
       end associate
    end subroutine certify_line
+
+   !> The same in the sparse form, where it costs some factorisations of the scene.
+   subroutine certify_scene(fem, rows, line, is_asked, certificate)
+      type(fem_t), intent(in) :: fem
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      logical, intent(in) :: is_asked             !< else it is told why there is none
+      type(line_certificate_t), intent(out) :: certificate
+      type(constraint_rows_t) :: b
+      type(status_t) :: status
+      real(wp), allocatable :: g(:, :)
+      real(wp) :: nu
+      integer(ip) :: i, k, n
+
+      associate (known => certificate%known)
+         known%nu = maxval(line%law%nu)
+         call build_constraint_rows(fem, rows, line, .true., b)
+         n = sum(fem%bodies%list%n)
+         allocate (g(2, n + 1:b%n_columns), source=0.0_wp)   ! the largest of each motion along a normal, along a tangent
+         do i = 1, b%n
+            do k = b%first(i), b%first(i + 1) - 1
+               associate (column => b%column(k), kind_of => merge(1, 2, i <= count(line%normal > 0)))
+                  if (column > n) g(kind_of, column) = max(g(kind_of, column), abs(b%value(k)))
+               end associate
+            end do
+         end do
+         known%why_not = who_holds_along(g(2, :), maxval(g, dim=1), line)
+         if (len_trim(known%why_not) > 0) return
+         known%why_not = 'in the sparse form --unique asks for it'
+         if (.not. is_asked) return
+         call certify_sparse(fem, rows, line, MOST, nu, status)
+         known%why_not = ''
+         known%up_to_nu = rounded_down(nu)
+         if (is_certified(known)) known%index = 1
+         if (.not. nu > 0.0_wp) known%why_not = 'contact points depend on each other'
+         if (.not. is_ok(status)) known%why_not = 'not enough memory'
+      end associate
+   end subroutine certify_scene
 
    !> Adds what is proved of a solution that no certificate makes the only one.
    !>

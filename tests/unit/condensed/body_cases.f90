@@ -47,9 +47,10 @@ contains
 
    !> A block of 4 x 2 elements, free but for what it stands on, on one of n_lower x 2 with a fixed base; E 100 and 300. The law
    !> is the paper's with nu = 0.4, eps = 0.001. Node loads push the top down and a little to the right.
-   subroutine stacked_blocks(n_lower, scene)
+   subroutine stacked_blocks(n_lower, scene, along)
       integer(ip), intent(in) :: n_lower
       type(scene_case_t), intent(out) :: scene
+      logical, intent(in), optional :: along           !< the left side is held along x
       type(face_list_t) :: slave, master
       real(wp) :: thickness(8 + 2*n_lower), no_points(2, 0)
       integer(ip) :: i, n, b
@@ -71,6 +72,7 @@ contains
       allocate (scene%held(2, n), source=.false.)
       allocate (scene%value(2, n), scene%f(2, n), source=0.0_wp)
       scene%held(:, 16:16 + n_lower) = .true.
+      if (present(along)) scene%held(1, [1, 6, 11]) = along
       scene%f(1, 11:15) = 0.05_wp
       scene%f(2, 11:15) = -0.5_wp
       thickness = 1.0_wp
