@@ -26,14 +26,14 @@ contains
       type(step_t), intent(in) :: acting            !< with the loads of the time
       type(contact_solution_t), intent(in) :: solution
       type(results_t), intent(inout) :: results     !< with displacements and reactions
-      type(common_t) :: common
+      type(common_t) :: both
       type(held_scene_t) :: primal
       character(len=:), allocatable :: why_not, why_this
       integer :: i
 
       allocate (results%bounded(size(data%quantities)))
       call check_hypotheses(data, results%u, why_not)
-      if (.not. allocated(why_not)) call find_primal(data, acting, solution, results, common, primal, why_not)
+      if (.not. allocated(why_not)) call find_primal(data, acting, solution, results, both, primal, why_not)
       do i = 1, size(data%quantities)
          associate (bound => results%bounded(i))
             bound%name = data%quantities(i)%name
@@ -42,7 +42,7 @@ contains
             if (allocated(why_not)) then
                why_this = why_not
             else
-               call bound_one(data, acting, i, common, primal, bound, why_this)
+               call bound_one(data, acting, i, both, primal, bound, why_this)
             end if
             if (allocated(why_this)) bound%why_not = why_this
          end associate
@@ -50,50 +50,50 @@ contains
    end subroutine bound_quantities
 
    !> The scene that is solved, with its stress in equilibrium.
-   subroutine find_primal(data, acting, solution, results, common, primal, why_not)
+   subroutine find_primal(data, acting, solution, results, both, primal, why_not)
       type(scene_data_t), intent(inout) :: data
       type(step_t), intent(in) :: acting
       type(contact_solution_t), intent(in) :: solution
       type(results_t), intent(in) :: results
-      type(common_t), intent(inout) :: common
+      type(common_t), intent(inout) :: both
       type(held_scene_t), intent(inout) :: primal
       character(len=:), allocatable, intent(inout) :: why_not
       real(wp), parameter :: NO_JUMP = 1.0e-9_wp
 
       call balanced_segments(data%model, data, solution, .true., primal%segments, why_not)
       if (allocated(why_not)) return
-      call find_joints(data, solution, primal%segments, common%joints, why_not)
+      call find_joints(data, solution, primal%segments, both%joints, why_not)
       if (allocated(why_not)) return
       primal%fem = data%fem
       primal%f = data%f
       primal%u = results%u
-      if (misfit_of_joints(common%joints, primal%segments, primal%u) > NO_JUMP*maxval(abs(primal%u))) then
+      if (misfit_of_joints(both%joints, primal%segments, primal%u) > NO_JUMP*maxval(abs(primal%u))) then
          why_not = 'joined sides with a gap that is not linear'
          return
       end if
-      call begin_common(data%fem, common)
-      call take_loads(data%model, acting, data%fem, common%sides, common%degree, data%held, results%reaction, primal%loads, why_not)
+      call begin_common(data%fem, both)
+      call take_loads(data%model, acting, data%fem, both%sides, both%degree, data%held, results%reaction, primal%loads, why_not)
       if (.not. (allocated(why_not) .or. allocated(data%exchanged))) then
          call exchange(data, solution, primal%segments, data%exchanged, why_not)
       end if
-      if (.not. allocated(why_not)) call find_stress(common, primal%u + data%exchanged, primal, why_not)
+      if (.not. allocated(why_not)) call find_stress(both, primal%u + data%exchanged, primal, why_not)
    end subroutine find_primal
 
-   subroutine bound_one(data, acting, i, common, primal, bound, why_not)
+   subroutine bound_one(data, acting, i, both, primal, bound, why_not)
       type(scene_data_t), intent(in) :: data
       type(step_t), intent(in) :: acting
       integer, intent(in) :: i                      !< which quantity
-      type(common_t), intent(in) :: common
+      type(common_t), intent(in) :: both
       type(held_scene_t), intent(in) :: primal
       type(quantity_bound_t), intent(inout) :: bound
       character(len=:), allocatable, intent(inout) :: why_not
       type(held_scene_t) :: dual
       real(wp), allocatable :: u_of_loads(:, :)
 
-      call make_dual(data, acting%prescribed, data%quantities(i), common, primal%segments, dual, u_of_loads, bound%least, &
+      call make_dual(data, acting%prescribed, data%quantities(i), both, primal%segments, dual, u_of_loads, bound%least, &
                      why_not)
-      if (.not. allocated(why_not)) call find_stress(common, u_of_loads, dual, why_not)
-      if (.not. allocated(why_not)) call bound_between(common, primal, dual, bound, why_not)
+      if (.not. allocated(why_not)) call find_stress(both, u_of_loads, dual, why_not)
+      if (.not. allocated(why_not)) call bound_between(both, primal, dual, bound, why_not)
    end subroutine bound_one
 
 end module atrito_bounded_quantities

@@ -8,7 +8,7 @@ module atrito_linear_quantity
    public :: linear_quantity_t, linear_part_t, quantity_bound_t
    public :: PART_FACES, PART_VOLUME, PART_STRESS, PART_REACTION, PART_PAIR
 
-   !> The mean of a displacement over faces or over elements, the mean of a stress over elements, the sum of reactions, the resultant
+   !> The mean of a displacement over faces or over elements, the mean of a stress over elements, a sum of reactions, the resultant
    !> of a pair.
    integer, parameter :: PART_FACES = 1, PART_VOLUME = 2, PART_STRESS = 3, PART_REACTION = 4, PART_PAIR = 5
 
