@@ -288,7 +288,7 @@ contains
       end do
    end subroutine add_own_strains
 
-   !> Takes round-off out of the jumps of joined sides without compliance: the slave's node follows, or the master's where it is held.
+   !> Takes round-off out of jumps of joined sides without compliance: the slave's node follows, or the master's where it is held.
    pure subroutine close_joints(joints, segments, held, u)
       type(joints_t), intent(in) :: joints
       type(segment_t), intent(in) :: segments(:)

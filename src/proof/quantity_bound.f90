@@ -31,7 +31,7 @@ module atrito_quantity_bound
    use atrito_star_sweeps, only: outlines_t
    implicit none (type, external)
    private
-   public :: held_scene_t, common_t, begin_common, find_stress, bound_between
+   public :: held_scene_t, common_t, begin_common, find_stress, bound_between, has_digits
 
    !> A scene with its contact states held: the one that is solved, or the dual one.
    type :: held_scene_t
@@ -142,6 +142,7 @@ contains
       if (energy > 0.0_wp .and. other > 0.0_wp) k = sqrt(sqrt(other)/sqrt(energy))
    end function balance_of
 
+   !> Whether the equilibrium of a scene's stress is exact enough for its bound.
    pure logical function has_digits(scene)
       type(held_scene_t), intent(in) :: scene
       real(wp) :: share

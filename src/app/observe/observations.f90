@@ -5,7 +5,7 @@ module atrito_observations
    use atrito_expression_names, only: is_name
    use atrito_expressions, only: evaluate_expression, expression_fault_t, list_calls
    use atrito_kinds, only: ip, is_nan, wp
-   use atrito_linear_quantity, only: linear_quantity_t
+   use atrito_linear_quantity, only: linear_quantity_t, POTENTIAL_ENERGY
    use atrito_mesh, only: mesh_t
    use atrito_messages, only: add_warning, message_t, SEVERITY_ERROR
    use atrito_model, only: model_t, observed_line_t
@@ -106,6 +106,7 @@ contains
       integer :: b, i
 
       if (size(bounds) == 0) return
+      observations%is_there = .true.
       if (.not. allocated(observations%list)) allocate (observations%list(0))
       allocate (observed(0))
       do i = 1, size(observations%list)
@@ -116,9 +117,12 @@ contains
          do i = 1, size(observed)
             if (same_name(observed(i)%s, bounds(b)%s)) exit
          end do
-         if (i > size(observed)) then
+         if (i > size(observed) .and. same_name(bounds(b)%s, POTENTIAL_ENERGY)) then
+            observations%quantities(b)%name = POTENTIAL_ENERGY
+            allocate (observations%quantities(b)%parts(0))
+         else if (i > size(observed)) then
             error%text = 'nothing of this name is observed'
-            error%expected = 'the name of a quantity of --observe or *OBSERVE'
+            error%expected = 'the name of a quantity of --observe or *OBSERVE, or '//POTENTIAL_ENERGY
             error%nearest = nearest_names(bounds(b)%s, observed, MOST_NEAREST)
          else
             observations%quantities(b)%name = observed(i)%s
