@@ -208,7 +208,6 @@ contains
       text = number(bound%least, DIGITS)//' to '//number(bound%most, DIGITS)//' ('// &
              trim(merge('certified    ', 'not certified', bound%is_certified))
       if (bound%is_of_states) text = text//', contact states held'
-      if (bound%is_of_friction) text = text//' for the friction bound'
       text = text//')'
    end function bound_text
 

@@ -68,7 +68,7 @@ contains
       is_ok = .true.
       n = size(model%observed)
       observations%is_there = n + size(texts) > 0
-      if (present(bounds) .and. .not. observations%is_there) call find_bounds(model, bounds, observations, is_ok, error)
+      if (present(bounds)) observations%is_there = observations%is_there .or. size(bounds) > 0
       if (.not. observations%is_there) return
       allocate (observations%list(n + size(texts)), observations%names(size(model%parameters)))
       do i = 1, size(model%parameters)
@@ -106,8 +106,6 @@ contains
       integer :: b, i
 
       if (size(bounds) == 0) return
-      observations%is_there = .true.
-      if (.not. allocated(observations%list)) allocate (observations%list(0))
       allocate (observed(0))
       do i = 1, size(observations%list)
          call append_string(observed, observations%list(i)%name)
