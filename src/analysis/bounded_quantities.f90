@@ -8,10 +8,11 @@ module atrito_bounded_quantities
    use atrito_exchanged_tractions, only: exchange
    use atrito_joined_sides, only: find_joints, misfit_of_joints
    use atrito_kinds, only: wp
-   use atrito_linear_quantity, only: quantity_bound_t
+   use atrito_linear_quantity, only: quantity_bound_t, POTENTIAL_ENERGY
    use atrito_model, only: step_t
+   use atrito_potential_bounds, only: bound_potential
    use atrito_proof_loads, only: take_loads
-   use atrito_quantity_bound, only: begin_common, bound_between, common_t, find_stress, held_scene_t
+   use atrito_quantity_bound, only: begin_common, bound_between, common_t, find_stress, has_digits, held_scene_t
    use atrito_results, only: results_t
    use atrito_scene_data, only: scene_data_t
    implicit none (type, external)
@@ -26,14 +27,15 @@ contains
       type(step_t), intent(in) :: acting            !< with the loads of the time
       type(contact_solution_t), intent(in) :: solution
       type(results_t), intent(inout) :: results     !< with displacements and reactions
-      type(common_t) :: common
+      type(common_t) :: both
       type(held_scene_t) :: primal
+      type(segment_t), allocatable :: balanced(:)
       character(len=:), allocatable :: why_not, why_this
       integer :: i
 
       allocate (results%bounded(size(data%quantities)))
       call check_hypotheses(data, results%u, why_not)
-      if (.not. allocated(why_not)) call find_primal(data, acting, solution, results, common, primal, why_not)
+      if (.not. allocated(why_not)) call find_primal(data, acting, solution, results, both, primal, balanced, why_not)
       do i = 1, size(data%quantities)
          associate (bound => results%bounded(i))
             bound%name = data%quantities(i)%name
@@ -41,8 +43,10 @@ contains
             if (allocated(why_this)) deallocate (why_this)
             if (allocated(why_not)) then
                why_this = why_not
+            else if (bound%name == POTENTIAL_ENERGY) then
+               call bound_energy(data, primal, balanced, bound, why_this)
             else
-               call bound_one(data, acting, i, common, primal, bound, why_this)
+               call bound_one(data, acting, i, both, primal, bound, why_this)
             end if
             if (allocated(why_this)) bound%why_not = why_this
          end associate
@@ -50,50 +54,79 @@ contains
    end subroutine bound_quantities
 
    !> The scene that is solved, with its stress in equilibrium.
-   subroutine find_primal(data, acting, solution, results, common, primal, why_not)
+   subroutine find_primal(data, acting, solution, results, both, primal, balanced, why_not)
       type(scene_data_t), intent(inout) :: data
       type(step_t), intent(in) :: acting
       type(contact_solution_t), intent(in) :: solution
       type(results_t), intent(in) :: results
-      type(common_t), intent(inout) :: common
+      type(common_t), intent(inout) :: both
       type(held_scene_t), intent(inout) :: primal
+      type(segment_t), allocatable, intent(out) :: balanced(:) !< with the tractions and the friction bound of the proof
       character(len=:), allocatable, intent(inout) :: why_not
       real(wp), parameter :: NO_JUMP = 1.0e-9_wp
 
       call balanced_segments(data%model, data, solution, .true., primal%segments, why_not)
       if (allocated(why_not)) return
-      call find_joints(data, solution, primal%segments, common%joints, why_not)
+      balanced = primal%segments
+      call find_joints(data, solution, primal%segments, both%joints, why_not)
       if (allocated(why_not)) return
       primal%fem = data%fem
       primal%f = data%f
       primal%u = results%u
-      if (misfit_of_joints(common%joints, primal%segments, primal%u) > NO_JUMP*maxval(abs(primal%u))) then
+      if (misfit_of_joints(both%joints, primal%segments, primal%u) > NO_JUMP*maxval(abs(primal%u))) then
          why_not = 'joined sides with a gap that is not linear'
          return
       end if
-      call begin_common(data%fem, common)
-      call take_loads(data%model, acting, data%fem, common%sides, common%degree, data%held, results%reaction, primal%loads, why_not)
+      call begin_common(data%fem, both)
+      call take_loads(data%model, acting, data%fem, both%sides, both%degree, data%held, results%reaction, primal%loads, why_not)
       if (.not. (allocated(why_not) .or. allocated(data%exchanged))) then
          call exchange(data, solution, primal%segments, data%exchanged, why_not)
       end if
-      if (.not. allocated(why_not)) call find_stress(common, primal%u + data%exchanged, primal, why_not)
+      if (.not. allocated(why_not)) call find_stress(both, primal%u + data%exchanged, primal, why_not)
    end subroutine find_primal
 
-   subroutine bound_one(data, acting, i, common, primal, bound, why_not)
+   !> Bounds of the potential energy: no states are held.
+   subroutine bound_energy(data, primal, balanced, bound, why_not)
+      type(scene_data_t), intent(in) :: data
+      type(held_scene_t), intent(in) :: primal
+      type(segment_t), intent(in) :: balanced(:)
+      type(quantity_bound_t), intent(inout) :: bound
+      character(len=:), allocatable, intent(inout) :: why_not
+      real(wp), parameter :: ROUND_OFF = 1.0e-13_wp
+      real(wp) :: lost
+      logical :: overlaps
+
+      call bound_potential(balanced, primal%u, sum(data%f*primal%u), primal%of_displacements, sum(primal%outlines%energy), &
+                           bound%least, bound%most, overlaps)
+      if (overlaps) then
+         why_not = 'sides without delta overlap between their nodes'
+         return
+      end if
+      lost = ROUND_OFF*(primal%of_displacements + sum(abs(data%f*primal%u)))
+      bound%least = bound%least - lost
+      bound%most = bound%most + lost
+      bound%exists = .true.
+      bound%is_of_states = .false.
+      bound%is_of_friction = data%line%has_friction
+      bound%is_certified = has_digits(primal)
+      if (.not. bound%is_certified) bound%why_not = 'round-off of the equilibrium'
+   end subroutine bound_energy
+
+   subroutine bound_one(data, acting, i, both, primal, bound, why_not)
       type(scene_data_t), intent(in) :: data
       type(step_t), intent(in) :: acting
       integer, intent(in) :: i                      !< which quantity
-      type(common_t), intent(in) :: common
+      type(common_t), intent(in) :: both
       type(held_scene_t), intent(in) :: primal
       type(quantity_bound_t), intent(inout) :: bound
       character(len=:), allocatable, intent(inout) :: why_not
       type(held_scene_t) :: dual
       real(wp), allocatable :: u_of_loads(:, :)
 
-      call make_dual(data, acting%prescribed, data%quantities(i), common, primal%segments, dual, u_of_loads, bound%least, &
+      call make_dual(data, acting%prescribed, data%quantities(i), both, primal%segments, dual, u_of_loads, bound%least, &
                      why_not)
-      if (.not. allocated(why_not)) call find_stress(common, u_of_loads, dual, why_not)
-      if (.not. allocated(why_not)) call bound_between(common, primal, dual, bound, why_not)
+      if (.not. allocated(why_not)) call find_stress(both, u_of_loads, dual, why_not)
+      if (.not. allocated(why_not)) call bound_between(both, primal, dual, bound, why_not)
    end subroutine bound_one
 
 end module atrito_bounded_quantities

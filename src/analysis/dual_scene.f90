@@ -35,11 +35,11 @@ module atrito_dual_scene
 contains
 
    !> Solves the dual scene. constant: what the quantity has besides, of tractions that are held.
-   subroutine make_dual(data, prescribed, quantity, common, segments, dual, u_of_loads, constant, why_not)
+   subroutine make_dual(data, prescribed, quantity, both, segments, dual, u_of_loads, constant, why_not)
       type(scene_data_t), intent(in) :: data        !< the scene that is solved
       type(nodal_values_t), intent(in) :: prescribed !< of its supports
       type(linear_quantity_t), intent(in) :: quantity
-      type(common_t), intent(in) :: common
+      type(common_t), intent(in) :: both
       type(segment_t), intent(in) :: segments(:)    !< with its tractions
       type(held_scene_t), intent(inout) :: dual
       real(wp), allocatable, intent(out) :: u_of_loads(:, :) !< (2, n_nodes) as it was solved; dual%u closes the joints [L]
@@ -50,20 +50,20 @@ contains
       real(wp), allocatable :: q(:), reaction(:, :)
 
       dual%segments = segments
-      call hold_states(quantity, common%joints, dual%segments, constant)
+      call hold_states(quantity, both%joints, dual%segments, constant)
       model = data%model
-      call make_model(prescribed, quantity, common%joints, dual%segments, model)
+      call make_model(prescribed, quantity, both%joints, dual%segments, model)
       call solve_linear(model, quantity, scene, dual, q, reaction, why_not)
       if (allocated(why_not)) return
       u_of_loads = dual%u
-      call close_joints(common%joints, dual%segments, scene%held, dual%u)
-      if (misfit_of_joints(common%joints, dual%segments, dual%u) > NO_JUMP*maxval(abs(dual%u))) then
+      call close_joints(both%joints, dual%segments, scene%held, dual%u)
+      if (misfit_of_joints(both%joints, dual%segments, dual%u) > NO_JUMP*maxval(abs(dual%u))) then
          why_not = 'supports on both sides of a contact that is joined'
          if (any(quantity%parts%kind == PART_PAIR)) why_not = 'the pair is joined to others or to supports at its ends'
          return
       end if
-      call tractions_of_forces(common%joints, q, dual%segments)
-      call take_loads(model, model%steps(1), scene%fem, common%sides, common%degree, scene%held, reaction, dual%loads, why_not)
+      call tractions_of_forces(both%joints, q, dual%segments)
+      call take_loads(model, model%steps(1), scene%fem, both%sides, both%degree, scene%held, reaction, dual%loads, why_not)
       dual%fem%mesh => data%fem%mesh                ! the model of the dual scene goes
    end subroutine make_dual
 
@@ -288,7 +288,7 @@ contains
       end do
    end subroutine add_own_strains
 
-   !> Takes round-off out of the jumps of joined sides without compliance: the slave's node follows, or where it is held the master's.
+   !> Takes round-off out of jumps of joined sides without compliance: the slave's node follows, or the master's where it is held.
    pure subroutine close_joints(joints, segments, held, u)
       type(joints_t), intent(in) :: joints
       type(segment_t), intent(in) :: segments(:)

@@ -244,6 +244,7 @@ contains
             call exchange(archive, 'exists', bound%exists)
             call exchange(archive, 'is_certified', bound%is_certified)
             call exchange(archive, 'is_of_states', bound%is_of_states)
+            call exchange(archive, 'is_of_friction', bound%is_of_friction)
             call exchange(archive, 'least', bound%least)
             call exchange(archive, 'most', bound%most)
             call exchange_word(archive, 'why_not', bound%why_not)

@@ -28,8 +28,6 @@ module atrito_joined_sides
       integer(ip), allocatable :: row(:, :)         !< (2, points) 0: none
       integer(ip) :: n_rows = 0
       integer(ip), allocatable :: slave(:), master(:) !< (rows) nodes; master 0: rigid
-      integer(ip), allocatable :: pair(:)           !< (rows)
-      integer(ip), allocatable :: direction_of(:)   !< (rows) 1 or 2
       real(wp), allocatable :: direction(:, :)      !< (2, rows)
       real(wp), allocatable :: weight(:)            !< (rows) area that the row stands for [L^2]
       real(wp), allocatable :: compliance(:)        !< (rows) [L/F]
@@ -50,127 +48,131 @@ contains
       type(segment_t), intent(inout) :: segments(:) !< of all pairs; tau becomes that of the points where they are joined
       type(joints_t), intent(out) :: joints
       character(len=:), allocatable, intent(inout) :: why_not
+      logical :: is_matched
       integer(ip) :: i, d, j
 
       allocate (joints%joined(2, size(segments)), source=.false.)
       allocate (joints%point(2, size(segments)), joints%on_face(3, size(segments)), source=0_ip)
       allocate (joints%row(2, problem%line%n), source=0_ip)
-      call list_points()
+      call list_points(problem, segments, joints)
+      is_matched = .true.
       do i = 1, size(segments, kind=ip)
          associate (points => joints%on_face(:segments(i)%n, i))
             if (any(points == 0)) cycle
             joints%joined(1, i) = all(solution%p(points) > 0.0_wp)
             joints%joined(2, i) = joints%joined(1, i) .and. all([(sticks(points(j)), j=1, size(points, kind=ip))])
             if (.not. joints%joined(1, i)) cycle
-            if (any([(.not. matches(points(j)), j=1, size(points, kind=ip))])) why_not = 'joined sides that do not match'
+            is_matched = is_matched .and. all([(faces_node(problem, segments(i), points(j)), j=1, size(points, kind=ip))])
             joints%point(:, i) = points(:2)
             if (segments(i)%n == 3 .and. sum(segments(i)%on_slave) < 1.0_wp) joints%point(2, i) = points(3)
             if (segments(i)%n == 3 .and. sum(segments(i)%on_slave) > 1.0_wp) joints%point(1, i) = points(3)
             segments(i)%tau = solution%tau(joints%point(:, i))
-            if (allocated(problem%rows%turn)) why_not = 'joined sides that do not match'
          end associate
       end do
-      if (allocated(why_not)) return
-      call number_rows()
+      if (is_matched) call number_rows(problem, segments, joints)
       do i = 1, size(segments, kind=ip)             ! a face of which a part faces nothing
          do d = 1, 2
-            if (.not. joints%joined(d, i)) cycle
-            if (any(joints%row(d, joints%on_face(:segments(i)%n, i)) == 0)) why_not = 'joined sides that do not match'
+            if (joints%joined(d, i)) is_matched = is_matched .and. all(joints%row(d, joints%on_face(:segments(i)%n, i)) > 0)
          end do
       end do
+      if (.not. is_matched) why_not = 'joined sides that do not match'
 
    contains
 
-      !> The points at the nodes of the faces.
-      subroutine list_points()
-         integer(ip) :: point(size(problem%held, 2)), pair, first, k
-
-         first = 0
-         do pair = 1, size(problem%points, kind=ip)
-            associate (points => problem%points(pair))
-               point = 0
-               do k = 1, points%n
-                  point(points%node(k)) = first + k
-               end do
-               do k = 1, size(segments, kind=ip)
-                  if (segments(k)%pair /= pair) cycle
-                  joints%on_face(:segments(k)%n, k) = point(segments(k)%node(:segments(k)%n))
-               end do
-               first = first + points%n
-            end associate
-         end do
-      end subroutine list_points
-
       logical function sticks(j)
-         integer(ip), intent(in) :: j
+         integer(ip), intent(in) :: j               !< point
 
          sticks = problem%line%tangential(j) > 0 .and. problem%line%law(j)%kind /= FRICTION_NONE .and. solution%tau(j) > 0.0_wp
          if (sticks) sticks = solution%state%state(problem%line%tangential(j)) == FREE
       end function sticks
 
-      !> Whether a point faces a node of the master of segment i, or a rigid one.
-      logical function matches(j)
-         integer(ip), intent(in) :: j
-         real(wp), parameter :: ROUND_OFF = 1.0e-9_wp
-         integer(ip) :: k
-
-         matches = .false.
-         do k = problem%rows%first(j), problem%rows%first(j + 1) - 1
-            associate (share => problem%rows%coefficient(k), node => problem%rows%node(k))
-               if (abs(share) <= ROUND_OFF) cycle
-               if (abs(abs(share) - 1.0_wp) > ROUND_OFF) return
-               if (share < 0.0_wp .and. .not. any(segments(i)%master_node(:segments(i)%n_master) == node)) return
-            end associate
-         end do
-         matches = segments(i)%n == segments(i)%n_master .or. segments(i)%master(1) == 0
-      end function matches
-
-      subroutine number_rows()
-         real(wp) :: area(2, problem%line%n)
-         integer(ip) :: k, e
-
-         area = 0.0_wp
-         do i = 1, size(segments, kind=ip)
-            do d = 1, 2
-               if (.not. joints%joined(d, i)) cycle
-               do e = 1, 2
-                  associate (point => joints%point(e, i))
-                     area(d, point) = area(d, point) + 0.5_wp*segments(i)%length*segments(i)%thickness
-                     if (joints%row(d, point) > 0) cycle
-                     joints%n_rows = joints%n_rows + 1
-                     joints%row(d, point) = joints%n_rows
-                  end associate
-               end do
-            end do
-         end do
-         associate (n => joints%n_rows)
-            allocate (joints%slave(n), joints%master(n), joints%pair(n), joints%direction_of(n), source=0_ip)
-            allocate (joints%direction(2, n), joints%weight(n), joints%compliance(n), source=0.0_wp)
-         end associate
-         do i = 1, size(segments, kind=ip)
-            do d = 1, 2
-               if (.not. joints%joined(d, i)) cycle
-               do e = 1, 2
-                  j = joints%point(e, i)
-                  associate (row => joints%row(d, j))
-                     do k = problem%rows%first(j), problem%rows%first(j + 1) - 1
-                        if (problem%rows%coefficient(k) > 0.5_wp) joints%slave(row) = problem%rows%node(k)
-                        if (problem%rows%coefficient(k) < -0.5_wp) joints%master(row) = problem%rows%node(k)
-                     end do
-                     joints%pair(row) = segments(i)%pair
-                     joints%direction_of(row) = d
-                     joints%direction(:, row) = problem%rows%normal(:, j)
-                     if (d == 2) joints%direction(:, row) = problem%rows%tangent(:, j)
-                     joints%weight(row) = area(d, j)
-                     joints%compliance(row) = segments(i)%delta/area(d, j)
-                     if (d == 2) joints%compliance(row) = compliance_along(segments(i), solution%tau(j))/area(d, j)
-                  end associate
-               end do
-            end do
-         end do
-      end subroutine number_rows
-
    end subroutine find_joints
+
+   !> The points at the nodes of the faces.
+   subroutine list_points(problem, segments, joints)
+      class(problem_t), intent(in) :: problem
+      type(segment_t), intent(in) :: segments(:)
+      type(joints_t), intent(inout) :: joints
+      integer(ip) :: point(size(problem%held, 2)), pair, first, k
+
+      first = 0
+      do pair = 1, size(problem%points, kind=ip)
+         associate (points => problem%points(pair))
+            point = 0
+            do k = 1, points%n
+               point(points%node(k)) = first + k
+            end do
+            do k = 1, size(segments, kind=ip)
+               if (segments(k)%pair == pair) joints%on_face(:segments(k)%n, k) = point(segments(k)%node(:segments(k)%n))
+            end do
+            first = first + points%n
+         end associate
+      end do
+   end subroutine list_points
+
+   !> Whether a point of a segment's face faces a node of the master's face, or a rigid one.
+   pure logical function faces_node(problem, segment, j)
+      class(problem_t), intent(in) :: problem
+      type(segment_t), intent(in) :: segment
+      integer(ip), intent(in) :: j                  !< point
+      real(wp), parameter :: ROUND_OFF = 1.0e-9_wp
+      integer(ip) :: k
+
+      faces_node = .not. allocated(problem%rows%turn) .and. (segment%n == segment%n_master .or. segment%master(1) == 0)
+      do k = problem%rows%first(j), problem%rows%first(j + 1) - 1
+         associate (share => problem%rows%coefficient(k), node => problem%rows%node(k))
+            if (abs(share) <= ROUND_OFF) cycle
+            if (abs(abs(share) - 1.0_wp) > ROUND_OFF) faces_node = .false.
+            if (share < 0.0_wp .and. .not. any(segment%master_node(:segment%n_master) == node)) faces_node = .false.
+         end associate
+      end do
+   end function faces_node
+
+   !> A row for each point and direction that is joined, with its nodes, and the area that it stands for.
+   subroutine number_rows(problem, segments, joints)
+      class(problem_t), intent(in) :: problem
+      type(segment_t), intent(in) :: segments(:)
+      type(joints_t), intent(inout) :: joints
+      real(wp) :: tau
+      integer(ip) :: i, d, e, j, k
+
+      joints%n_rows = 0
+      do i = 1, size(segments, kind=ip)
+         do d = 1, 2
+            do e = 1, merge(2, 0, joints%joined(d, i))
+               associate (row => joints%row(d, joints%point(e, i)))
+                  if (row > 0) cycle
+                  joints%n_rows = joints%n_rows + 1
+                  row = joints%n_rows
+               end associate
+            end do
+         end do
+      end do
+      associate (n => joints%n_rows)
+         allocate (joints%slave(n), joints%master(n), source=0_ip)
+         allocate (joints%direction(2, n), joints%weight(n), joints%compliance(n), source=0.0_wp)
+      end associate
+      do i = 1, size(segments, kind=ip)
+         do d = 1, 2
+            do e = 1, merge(2, 0, joints%joined(d, i))
+               j = joints%point(e, i)
+               associate (row => joints%row(d, j))
+                  do k = problem%rows%first(j), problem%rows%first(j + 1) - 1
+                     if (problem%rows%coefficient(k) > 0.5_wp) joints%slave(row) = problem%rows%node(k)
+                     if (problem%rows%coefficient(k) < -0.5_wp) joints%master(row) = problem%rows%node(k)
+                  end do
+                  joints%direction(:, row) = problem%rows%normal(:, j)
+                  if (d == 2) joints%direction(:, row) = problem%rows%tangent(:, j)
+                  joints%weight(row) = joints%weight(row) + 0.5_wp*segments(i)%length*segments(i)%thickness
+                  tau = segments(i)%tau(e)
+                  joints%compliance(row) = segments(i)%delta
+                  if (d == 2) joints%compliance(row) = compliance_along(segments(i), tau)
+               end associate
+            end do
+         end do
+      end do
+      joints%compliance = joints%compliance/joints%weight
+   end subroutine number_rows
 
    !> Slip over shear below the bound tau [L^3/F].
    pure real(wp) function compliance_along(segment, tau)

@@ -14,7 +14,7 @@ module atrito_law_lack
    use atrito_sorting, only: order_key, sorted_places
    implicit none (type, external)
    private
-   public :: law_t, laws_at, traction_of_law, balanced_jump, lack_of_part, axis_of, NO_LIMIT
+   public :: law_t, laws_at, traction_of_law, balanced_jump, lack_of_part, axis_of, add_zeros, NO_LIMIT
 
    !> The law of contact for the traction in one direction, at a place or in the mean round it.
    type :: law_t

@@ -6,12 +6,12 @@
 !>
 !>     Q(u) = Q_h + (B, B*),     Q_h = q(u_h) + f(z_h) - a(u_h, z_h),                                             (1)
 !>
-!> B, B* the errors of the stresses of u_h and z_h, which are not known. But for any k > 0 k D + D*/k is the difference of k B + B*/k
-!> and of the errors of the equilibrium, and these are orthogonal: so 4 (B, B*) = |k B + B*/k|^2 - |k B - B*/k|^2 lies between
+!> B, B* the errors of the stresses of u_h and z_h, which are not known. But for any k > 0 k D + D*/k is k B + B*/k less the errors
+!> of the equilibrium, which are orthogonal to it: so 4 (B, B*) = |k B + B*/k|^2 - |k B - B*/k|^2 lies between
 !>
 !>     -|k D - D*/k|^2     and     |k D + D*/k|^2,                                                               (2)
 !>
-!> closest together for k^2 = |D*|/|D|: 2 |D| |D*| apart, half of what the product of both bounds gives.
+!> closest together for k^2 = |D*|/|D|: (B, B*) is known to |D| |D*| then, half of what Cauchy's inequality tells.
 !>
 !> This is of a linear problem. Contact is one with its states held: atrito_joined_sides.
 module atrito_quantity_bound
@@ -31,7 +31,7 @@ module atrito_quantity_bound
    use atrito_star_sweeps, only: outlines_t
    implicit none (type, external)
    private
-   public :: held_scene_t, common_t, begin_common, find_stress, bound_between
+   public :: held_scene_t, common_t, begin_common, find_stress, bound_between, has_digits
 
    !> A scene with its contact states held: the one that is solved, or the dual one.
    type :: held_scene_t
@@ -60,44 +60,45 @@ module atrito_quantity_bound
 
 contains
 
-   subroutine begin_common(fem, common)
+   !> Sides, chains and classes of the elements; the joints are found elsewhere.
+   subroutine begin_common(fem, both)
       type(fem_t), intent(in) :: fem
-      type(common_t), intent(inout) :: common
+      type(common_t), intent(inout) :: both
 
-      common%degree = maxval(DEGREE_OF(fem%mesh%shape(:fem%mesh%n_elements)))
-      call find_classes(fem, common%classes)
-      call list_sides(fem%mesh, common%sides)
-      call list_chains(fem%mesh, common%sides, common%chains)
+      both%degree = maxval(DEGREE_OF(fem%mesh%shape(:fem%mesh%n_elements)))
+      call find_classes(fem, both%classes)
+      call list_sides(fem%mesh, both%sides)
+      call list_chains(fem%mesh, both%sides, both%chains)
    end subroutine begin_common
 
    !> The stress in equilibrium, and its distance from that of the displacements.
-   subroutine find_stress(common, u_of_loads, scene, why_not)
-      type(common_t), intent(in) :: common
+   subroutine find_stress(both, u_of_loads, scene, why_not)
+      type(common_t), intent(in) :: both
       real(wp), intent(in) :: u_of_loads(:, :)      !< (2, n_nodes) the finite element solution for the tractions as loads [L]
       type(held_scene_t), intent(inout) :: scene
       character(len=:), allocatable, intent(inout) :: why_not
       type(side_cuts_t) :: cuts
       real(wp), allocatable :: force(:, :, :)
 
-      call take_contact(scene%fem, common%sides, scene%segments, common%degree, scene%loads, cuts, why_not)
+      call take_contact(scene%fem, both%sides, scene%segments, both%degree, scene%loads, cuts, why_not)
       if (allocated(why_not)) return
-      call take_elements(scene%fem, common%classes, common%sides, u_of_loads, scene%loads, force)
-      call equilibrate_sides(scene%fem%mesh, common%sides, common%chains, force, scene%loads%known, scene%loads%traction, &
+      call take_elements(scene%fem, both%classes, both%sides, u_of_loads, scene%loads, force)
+      call equilibrate_sides(scene%fem%mesh, both%sides, both%chains, force, scene%loads%known, scene%loads%traction, &
                              scene%residual)
       deallocate (force)
-      call sum_stresses(scene%fem, common%classes, common%sides, common%chains, scene%loads, scene%u, cuts, scene%outlines, &
+      call sum_stresses(scene%fem, both%classes, both%sides, both%chains, scene%loads, scene%u, cuts, scene%outlines, &
                         scene%residual)
       if (any(scene%outlines%energy < 0.0_wp)) then
          why_not = 'a side of an element faces too many others'
          return
       end if
-      scene%energy = sum(scene%outlines%energy) + interface_energy(common%joints, scene%segments, scene%u)
-      scene%of_displacements = energy_of_displacements(common, scene)
+      scene%energy = sum(scene%outlines%energy) + interface_energy(both%joints, scene%segments, scene%u)
+      scene%of_displacements = energy_of_displacements(both, scene)
    end subroutine find_stress
 
    !> The bounds from both scenes; bound%least and most have on entry the constant of the quantity.
-   subroutine bound_between(common, primal, dual, bound, why_not)
-      type(common_t), intent(in) :: common
+   subroutine bound_between(both, primal, dual, bound, why_not)
+      type(common_t), intent(in) :: both
       type(held_scene_t), intent(in) :: primal, dual
       type(quantity_bound_t), intent(inout) :: bound
       character(len=:), allocatable, intent(inout) :: why_not
@@ -105,19 +106,19 @@ contains
       real(wp) :: k, works(4), above, below, norms, middle, lost
 
       force = primal%f
-      call forces_of_held(common%joints, primal%segments, force)
+      call forces_of_held(both%joints, primal%segments, force)
       norms = sqrt(primal%of_displacements*dual%of_displacements)
       k = balance_of(primal%of_displacements, dual%of_displacements)
       works(1) = sum(dual%f*primal%u)
       works(2) = sum(force*dual%u)
-      works(3) = -0.25_wp*(stress_energy(common, primal, dual, k, 1) - stress_energy(common, primal, dual, k, -1))
-      works(4) = -interface_product(common%joints, primal%segments, primal%u, dual%segments, dual%u)
+      works(3) = -0.25_wp*(stress_energy(both, primal, dual, k, 1) - stress_energy(both, primal, dual, k, -1))
+      works(4) = -interface_product(both%joints, primal%segments, primal%u, dual%segments, dual%u)
       k = balance_of(primal%energy, dual%energy)
       above = 0.0_wp
       below = 0.0_wp
       if (primal%energy > 0.0_wp .and. dual%energy > 0.0_wp) then
-         call difference_energy(common, primal, dual, k, 1, above, why_not)
-         call difference_energy(common, primal, dual, k, -1, below, why_not)
+         call difference_energy(both, primal, dual, k, 1, above, why_not)
+         call difference_energy(both, primal, dual, k, -1, below, why_not)
       end if
       if (allocated(why_not)) return
       middle = bound%least + sum(works)
@@ -141,6 +142,7 @@ contains
       if (energy > 0.0_wp .and. other > 0.0_wp) k = sqrt(sqrt(other)/sqrt(energy))
    end function balance_of
 
+   !> Whether the equilibrium of a scene's stress is exact enough for its bound.
    pure logical function has_digits(scene)
       type(held_scene_t), intent(in) :: scene
       real(wp) :: share
@@ -189,40 +191,40 @@ contains
    end subroutine combine
 
    !> |C eps(k u + s z/k)|^2 of the bodies.
-   real(wp) function stress_energy(common, primal, dual, k, s) result(energy)
-      type(common_t), intent(in) :: common
+   real(wp) function stress_energy(both, primal, dual, k, s) result(energy)
+      type(common_t), intent(in) :: both
       type(held_scene_t), intent(in) :: primal, dual
       real(wp), intent(in) :: k
       integer, intent(in) :: s
       type(held_scene_t) :: scene
 
       call combine(primal, dual, k, s, scene)
-      energy = energy_of_displacements(common, scene)
+      energy = energy_of_displacements(both, scene)
    end function stress_energy
 
    !> |C eps(u)|^2 of the bodies.
-   real(wp) function energy_of_displacements(common, scene) result(energy)
-      type(common_t), intent(in) :: common
+   real(wp) function energy_of_displacements(both, scene) result(energy)
+      type(common_t), intent(in) :: both
       type(held_scene_t), intent(in) :: scene
       type(outlines_t) :: nothing
       type(proof_loads_t) :: no_loads
       type(side_cuts_t) :: no_cuts
       character(len=:), allocatable :: no_reason
 
-      nothing%degree = common%degree
+      nothing%degree = both%degree
       allocate (nothing%a, mold=scene%outlines%a)
       allocate (nothing%energy, mold=scene%outlines%energy)
       allocate (no_loads%volume, mold=scene%loads%volume)
       nothing%a = 0.0_wp
       no_loads%volume = 0.0_wp
-      call link_pieces(common%sides%n, no_cuts, no_reason)
-      call sum_again(scene%fem, common%classes, common%sides, no_cuts, no_loads, scene%u, nothing)
+      call link_pieces(both%sides%n, no_cuts, no_reason)
+      call sum_again(scene%fem, both%classes, both%sides, no_cuts, no_loads, scene%u, nothing)
       energy = sum(nothing%energy)
    end function energy_of_displacements
 
    !> |k D + s D*/k|^2
-   subroutine difference_energy(common, primal, dual, k, s, energy, why_not)
-      type(common_t), intent(in) :: common
+   subroutine difference_energy(both, primal, dual, k, s, energy, why_not)
+      type(common_t), intent(in) :: both
       type(held_scene_t), intent(in) :: primal, dual
       real(wp), intent(in) :: k
       integer, intent(in) :: s
@@ -233,10 +235,10 @@ contains
 
       energy = 0.0_wp
       call combine(primal, dual, k, s, scene)
-      call take_contact(scene%fem, common%sides, scene%segments, common%degree, scene%loads, cuts, why_not)
+      call take_contact(scene%fem, both%sides, scene%segments, both%degree, scene%loads, cuts, why_not)
       if (allocated(why_not)) return
-      call sum_again(scene%fem, common%classes, common%sides, cuts, scene%loads, scene%u, scene%outlines)
-      energy = sum(scene%outlines%energy) + interface_energy(common%joints, scene%segments, scene%u)
+      call sum_again(scene%fem, both%classes, both%sides, cuts, scene%loads, scene%u, scene%outlines)
+      energy = sum(scene%outlines%energy) + interface_energy(both%joints, scene%segments, scene%u)
    end subroutine difference_energy
 
 end module atrito_quantity_bound

@@ -156,12 +156,16 @@ contains
       end do
       if (.not. any(results%bounded%exists)) return
       if (any(results%bounded%is_of_states)) then
-         call add_paragraph(page, 'The bounds are proved for the exact solution of the problem with the contact states held: '// &
+         call add_paragraph(page, 'Bounds "with contact states held" are proved for the exact solution of the problem in which '// &
                             'faces that are closed at all their nodes are joined along the normal, those that stick along '// &
                             'the tangent, too, all others have the tractions of this run. That the exact solution has '// &
                             'these states is not proved.', 6)
-      else
-         call add_paragraph(page, 'The bounds are proved for the exact solution: there is no contact.', 6)
+      end if
+      if (any(results%bounded%is_of_friction)) then
+         call add_paragraph(page, 'The bounds of the potential energy are proved for the friction bound of this run.', 6)
+      end if
+      if (any(results%bounded%exists .and. .not. (results%bounded%is_of_states .or. results%bounded%is_of_friction))) then
+         call add_paragraph(page, 'All others are proved for the exact solution, and no states are held.', 6)
       end if
    end subroutine add_bounded
 

@@ -1,6 +1,6 @@
 """Random scenes: are linear quantities between their bounds?
 
-    quantity_bounds.py ATRITO FROM TO SEED [--keep] [--times X]
+    quantity_bounds.py ATRITO FROM TO SEED [--keep] [--times X] [--folder F]
 
 One to three skew blocks on one another, pressed so that all of the contact is closed, without friction or stuck: then the problem with
 the contact states held is the contact problem, and a mesh of second degree, 8 x as fine, tells the quantities. Scenes whose states
@@ -173,8 +173,9 @@ def main():
     parser.add_argument('seed', type=int)
     parser.add_argument('--keep', action='store_true')
     parser.add_argument('--times', type=float, default=1.0)
+    parser.add_argument('--folder', default='quantity-bounds')
     asked = parser.parse_args()
-    work, widths = pathlib.Path('quantity-bounds'), []
+    work, widths = pathlib.Path(asked.folder), []
     counts = dict.fromkeys(['scenes', 'bounds', 'outside', 'no bound', 'other states', 'failed'], 0)
     for number in range(asked.first, asked.last + 1):
         judge(asked.atrito, number, asked.seed, asked.times, work, counts, widths)

@@ -16,6 +16,7 @@ body_motion_t      fields/exchange_results.f90 exchange_motion body
 rigid_result_t     fields/exchange_results.f90 exchange_rigid body
 joint_t            fields/exchange_results.f90 exchange_joint joint
 observed_t         fields/exchange_results.f90 exchange_observed list
+quantity_bound_t   fields/exchange_results.f90 exchange_bounded bound
 observed_list_t    fields/restart_file.f90 exchange_observed_list list
 cut_force_t        fields/exchange_results.f90 exchange_cut cut
 iteration_t        fields/exchange_results.f90 exchange_iterations list

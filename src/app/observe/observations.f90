@@ -5,7 +5,7 @@ module atrito_observations
    use atrito_expression_names, only: is_name
    use atrito_expressions, only: evaluate_expression, expression_fault_t, list_calls
    use atrito_kinds, only: ip, is_nan, wp
-   use atrito_linear_quantity, only: linear_quantity_t
+   use atrito_linear_quantity, only: linear_quantity_t, POTENTIAL_ENERGY
    use atrito_mesh, only: mesh_t
    use atrito_messages, only: add_warning, message_t, SEVERITY_ERROR
    use atrito_model, only: model_t, observed_line_t
@@ -69,7 +69,7 @@ contains
       is_ok = .true.
       n = size(model%observed)
       observations%is_there = n + size(texts) > 0
-      if (present(bounds) .and. .not. observations%is_there) call find_bounds(model, bounds, observations, is_ok, error)
+      if (present(bounds)) observations%is_there = observations%is_there .or. size(bounds) > 0
       if (.not. observations%is_there) return
       allocate (observations%list(n + size(texts)), observations%names(size(model%parameters)))
       do i = 1, size(model%parameters)
@@ -107,7 +107,6 @@ contains
       integer :: b, i
 
       if (size(bounds) == 0) return
-      if (.not. allocated(observations%list)) allocate (observations%list(0))
       allocate (observed(0))
       do i = 1, size(observations%list)
          call append_string(observed, observations%list(i)%name)
@@ -117,9 +116,12 @@ contains
          do i = 1, size(observed)
             if (same_name(observed(i)%s, bounds(b)%s)) exit
          end do
-         if (i > size(observed)) then
+         if (i > size(observed) .and. same_name(bounds(b)%s, POTENTIAL_ENERGY)) then
+            observations%quantities(b)%name = POTENTIAL_ENERGY
+            allocate (observations%quantities(b)%parts(0))
+         else if (i > size(observed)) then
             error%text = 'nothing of this name is observed'
-            error%expected = 'the name of a quantity of --observe or *OBSERVE'
+            error%expected = 'the name of a quantity of --observe or *OBSERVE, or '//POTENTIAL_ENERGY
             error%nearest = nearest_names(bounds(b)%s, observed, MOST_NEAREST)
          else
             observations%quantities(b)%name = observed(i)%s

@@ -19,7 +19,7 @@ module atrito_observed_quantities
    public :: find_quantity
 
    character(len=*), parameter :: CAN_BE_BOUND = 'sums of mean(u1, SURFACE or ELSET), mean(s11, ELSET), rf1(SET), '// &
-                                             'normal_resultant, shear_resultant, mean(pressure, pair) times numbers'
+                                  'normal_resultant, shear_resultant, mean(pressure, pair) times numbers'
 
    character(len=*), parameter :: RESULTANTS(2) = [character(len=16) :: 'normal_resultant', 'shear_resultant']
 

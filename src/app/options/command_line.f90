@@ -268,6 +268,7 @@ contains
       type(command_t), intent(inout) :: command
       type(message_t), intent(inout) :: error
       character(len=:), allocatable :: name
+      integer :: i
       logical :: ok
 
       name = trim(OPTIONS(given%option)%name)
@@ -314,7 +315,8 @@ contains
       case ('--watch')
          call take_watched(given%value, command%watched, ok)
       case ('--elements')
-         call take_elements(given%value, command%elements, ok)
+         call take_names(lower_case(given%value), command%elements, ok)
+         ok = ok .and. all([(kind_named(upper_case(command%elements(i)%s)) > 0, i=1, size(command%elements))])
       case ('--solver', '--contact', '--proof', '--share', '--format', '--messages', '--progress')
          call take_word(name, given%value, command, ok)
       case ('--plot-box')
@@ -404,40 +406,21 @@ contains
       if (ok) call take_integer(value(comma + 1:), 1, 2, watched(2), ok)
    end subroutine take_watched
 
-   !> Names of elements between commas, each once.
-   subroutine take_elements(value, elements, ok)
-      character(len=*), intent(in) :: value
-      type(string_t), allocatable, intent(inout) :: elements(:)
-      logical, intent(out) :: ok
-      character(len=:), allocatable :: name
-      integer :: first, last, i
-
-      ok = .true.
-      first = 1
-      do while (first <= len(value) + 1 .and. ok)
-         last = first + index(value(first:)//',', ',') - 2
-         name = lower_case(trim(adjustl(value(first:last))))
-         ok = kind_named(upper_case(name)) > 0 .and. all([(elements(i)%s /= name, i=1, size(elements))])
-         call append_string(elements, name)
-         first = last + 2
-      end do
-   end subroutine take_elements
-
    !> Names with commas between them, behind those before; each once.
    pure subroutine take_names(value, names, ok)
       character(len=*), intent(in) :: value
       type(string_t), allocatable, intent(inout) :: names(:)
       logical, intent(out) :: ok
-      character(len=:), allocatable :: name
       integer :: first, last, i
 
       ok = .true.
       first = 1
       do while (first <= len(value) + 1 .and. ok)
          last = first + index(value(first:)//',', ',') - 2
-         name = trim(adjustl(value(first:last)))
-         ok = len(name) > 0 .and. all([(lower_case(names(i)%s) /= lower_case(name), i=1, size(names))])
-         call append_string(names, name)
+         call append_string(names, trim(adjustl(value(first:last))))
+         associate (n => size(names))
+            ok = len(names(n)%s) > 0 .and. all([(lower_case(names(i)%s) /= lower_case(names(n)%s), i=1, n - 1)])
+         end associate
          first = last + 2
       end do
    end subroutine take_names

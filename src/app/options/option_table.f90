@@ -60,7 +60,7 @@ module atrito_option_table
                                 option_t('--observe', 'NAME=EXPR', [Y, Y, N, N, Y, Y, Y], &
                                          'a number of your own, as tip=u2(1.0, 0.05), in the tables; may be repeated', &
                                          expected='NAME=EXPRESSION, such as tip=u2(1.0, 0.05) or peak=max(mises, BEAM)'), &
-                   option_t('--bound', 'NAMES', [Y, N, N, N, N, N, N], 'proved bounds of observed quantities that are linear', &
+                       option_t('--bound', 'NAMES', [Y, N, N, N, N, N, N], 'proved bounds of observed quantities that are linear', &
                                          expected='names of observed quantities, commas between them'), &
                    option_t('--refine', 'K', [Y, Y, N, N, Y, Y, Y], 'each element into 4, K times; all else follows', default='0', &
                                          expected='a whole number, 0 to 12: each element into 4, so many times'), &

@@ -24,7 +24,7 @@ done
 near 'twice as fine, a quarter as wide' "$(value "$(width column-4 sink)/$(width column-8 sink)")" 4 1e-6
 near 'the same again' "$(value "$(width column-8 sink)/$(width column-16 sink)")" 4 1e-6
 below 'equilibrium alone' "$(width column-4 foot)" 1e-9
-grep -q 'There is no contact' column-4/column.lst || grep -q 'there is no contact' column-4/column.lst || complain 'what is proved, without contact'
+grep -q 'no states are held' column-4/column.lst || complain 'what is proved, without contact'
 
 # A clamped block: a mesh 8 x as fine of second degree tells
 tip="--observe tip=mean(u2,BODY-RIGHT) --observe body=mean(u1,BODY) --observe pull=rf2(BODY-LEFT) --observe stress=mean(s11,BODY)"
@@ -82,6 +82,22 @@ for refine in 0 1 2; do
    between "ex1-$refine" sag -0.01408
 done
 grep -q 'bounded .*sag -0.01.* to -0.01.* (certified, contact states held)' ex1-2.out || complain 'the words of the screen'
+
+# The potential energy: without contact less the strain energy; with contact a mesh of second degree, finer, has the narrower interval
+run 0 "$here/clamped.inp" potential --quiet --bound potential_energy
+between potential potential_energy "-($(summary fine strain_energy))" 1e-6
+sed 's/CPE4/CPE8/' "$ex1" >ex1-second.inp
+run 0 ex1-second.inp energy-fine --set nu=0 --refine 2 --quiet --bound potential_energy
+low=$(summary energy-fine potential_energy_least)
+high=$(summary energy-fine potential_energy_most)
+below 'a narrow interval' "$(value "(($high) - ($low))/-($low)")" 1e-3
+for refine in 0 1 2; do
+   run 0 "$ex1" "energy-$refine" --set nu=0 --refine $refine --quiet --bound potential_energy
+   between "energy-$refine" potential_energy "$low"
+   between "energy-$refine" potential_energy "$high"
+done
+run 0 "$ex1" energy-friction --quiet --bound potential_energy
+grep -q 'for the friction bound of this run' energy-friction/*.lst || complain 'the words of the energy'
 
 # A history: bounds at the ends of steps
 sed 's/^\*END STEP/&\n*STEP\n*STATIC\n0.5, 1.\n*DSLOAD\nBODY-TOP, P, 1.\n*END STEP/' "$here/clamped.inp" >history.inp
