@@ -7,8 +7,8 @@
 !>
 !>    |W| <= 5 g (sum over bodies of |w| sum |f| + sum over points of |q_j| |v_T,j|/l_j).
 !>
-!> Then it is none, and the least change of the loads takes it out of them. Normals along an axis, and decks that are not rounded to
-!> digits, leave nothing in doubt.
+!> Then, and below 2.5e-3 of the forces, which is what four digits leave, it is none, and the least change of the loads takes it out
+!> of them. Normals along an axis, and decks that are not rounded to digits, leave nothing in doubt.
 module atrito_load_digits
    use atrito_contact_rows, only: vector_of_entry
    use atrito_dense, only: solve_lu
@@ -25,7 +25,7 @@ module atrito_load_digits
    real(wp), parameter :: GRAINS = 5.0_wp           !< by which the place of a force may be off
    real(wp), parameter :: EXACT = 1.0e-14_wp        !< grain over coordinates of a deck that is not rounded to digits
    real(wp), parameter :: LATTICE = 10.0_wp         !< length of a point in grains, of nodes that were not rounded
-   real(wp), parameter :: MOST_PART = 1.0e-3_wp     !< a larger part of the forces was meant, whatever the digits
+   real(wp), parameter :: MOST_PART = 2.5e-3_wp    !< a larger part of the forces was meant, whatever the digits
    real(wp), parameter :: ALONG_AXIS = 1.0e-12_wp   !< part of a normal
 
 contains
