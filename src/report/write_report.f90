@@ -66,7 +66,7 @@ module atrito_write_report
                                   '@media (max-width:520px){main{padding:14px 12px 40px}h1{font-size:1.35rem}'//LF// &
                                   '.tiles{grid-template-columns:1fr 1fr;gap:8px}.tiles dd{font-size:1rem}'//LF// &
                                   '.plain div{grid-template-columns:1fr}.plain dd.small{grid-column:1}'//LF// &
-                                  'th,td{padding:.18em .45em}pre{font-size:11px}}'//LF// &
+                                  'th,td{padding:.18em .45em}pre{font-size:11px}figure img{width:620px;max-width:none}}'//LF// &
                                   '@page{size:A4;margin:14mm 13mm}'//LF// &
         '@media print{:root{color-scheme:light;--paper:#fff;--ink:#000;--soft:#444;--line:#bbb;--panel:#f6f6f6;--good:#064;'//LF// &
                                   '--good-paper:#fff;--bad:#900;--bad-paper:#fff;--accent:#0b5cad}'//LF// &
