@@ -33,7 +33,7 @@ module atrito_build_model
                                set_interferences
    use atrito_contact_roles, only: choose_roles
    use atrito_contact_rules, only: contact_rules_t, read_contact_rules
-   use atrito_deck, only: deck_t, count_lines, token_text, line_item, keyword_name
+   use atrito_deck, only: deck_t, count_lines, token_t, token_text, line_item, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t, prepare_context, has_errors
    use atrito_element_trees, only: element_trees_t, list_leaves
@@ -267,6 +267,8 @@ contains
    subroutine take_units(deck, units)
       type(deck_t), intent(in) :: deck
       type(units_t), intent(inout) :: units
+      character(len=*), parameter :: NOT_OF_A_UNIT = '[]{}"''\%@&~_' !! of which scripts of gnuplot make something else
+      type(token_t) :: item
       integer(ip) :: i, k
 
       do i = 1, deck%n_cards
@@ -276,7 +278,10 @@ contains
             if (allocated(units%names(1)%s)) call report_error(deck, card%place, 'E-TWICE', '*UNITS is given twice', &
                                                                expected='one *UNITS a deck', keyword='UNITS')
             do k = 1, min(N_UNITS, deck%lines(card%first_line)%n_tokens)
-               units%names(k)%s = token_text(deck, line_item(deck, deck%lines(card%first_line), k))
+               item = line_item(deck, deck%lines(card%first_line), k)
+               units%names(k)%s = token_text(deck, item)
+               if (scan(units%names(k)%s, NOT_OF_A_UNIT) > 0) call report_error(deck, item, 'E-NAME', &
+                                        'no name of a unit', expected='a name without any of '//NOT_OF_A_UNIT, keyword='UNITS')
                if (len(units%names(k)%s) == 0) deallocate (units%names(k)%s)
             end do
          end associate

@@ -83,7 +83,7 @@ contains
       type(shown_set_t), allocatable :: shown(:)
       integer(ip) :: i
 
-      call begin_plots(plots, folder)
+      call begin_plots(plots, folder, model%units)
       call write_scene_plot(plots, model, view)
       ! Writes sets.dat and sets.gp.
       if (size(shown_sets(model)) > 0) then

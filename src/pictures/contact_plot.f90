@@ -9,8 +9,8 @@ module atrito_contact_plot
    use atrito_model, only: model_t, interaction_t, FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL
    use atrito_plot_files, only: CONTACT_PLOT
    use atrito_plot_scripts, only: plots_t, put, begin_script, put_table, put_terminal, put_frame, put_panel
-   use atrito_plot_text, only: range_t, cover, padded, range_of, quoted, cleaned, picture_title, evenly, COLOUR, LF, GREEK_NU, &
-                               GREEK_EPSILON, GREEK_RHO, GREEK_DELTA, PLUS_MINUS
+   use atrito_plot_text, only: range_t, cover, padded, range_of, quoted, cleaned, picture_title, evenly, COLOUR, DASH, LF, &
+                               GREEK_NU, GREEK_EPSILON, GREEK_RHO, GREEK_DELTA, PLUS_MINUS
    use atrito_results, only: results_t, contact_result_t, history_t, last_frame, view_frame, POINT_OPEN, POINT_SLIP
    use atrito_strings, only: to_text
    use atrito_summary, only: pair_name
@@ -101,7 +101,7 @@ contains
          associate (frame => history%frames(shown(i)))
             call put(plots, 'early_step['//to_text(i)//'] = '//to_text(frame%step)//'; early_increment['//to_text(i)//'] = '// &
                      to_text(frame%increment)//LF// &
-                     'set style line '//to_text(FIRST_EARLY + i)//' lt 1 lw 1.5 lc rgb "'//EARLY(i)//'"')
+                     'set style line '//to_text(FIRST_EARLY + i)//' lw 1.5 dt '//trim(DASH(i + 1))//' lc rgb "'//EARLY(i)//'"')
          end associate
       end do
       call put(plots, 'early(i, c) = is_shown(early_step[i], early_increment[i]) ? column(c)/unit : NaN')

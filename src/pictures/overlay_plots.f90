@@ -13,7 +13,7 @@ module atrito_overlay_plots
    use atrito_plot_files, only: plot_folder, OVERLAY_PLOT, OVERLAY_SUMMARY
    use atrito_plot_scripts, only: plots_t, begin_plots, end_plots, put, begin_script, put_terminal, put_frame, put_panel, &
                                   CSV_SEPARATOR, begin_data
-   use atrito_plot_text, only: range_t, cover, padded, range_of, range_text, span, quoted, cleaned, LF, COLOUR, N_COLOURS, &
+   use atrito_plot_text, only: range_t, cover, padded, range_of, range_text, span, quoted, cleaned, LF, COLOUR, DASH, N_COLOURS, &
                                colour_styles
    use atrito_status, only: status_t
    use atrito_strings, only: string_t, append_string, to_text
@@ -123,7 +123,6 @@ contains
       type(range_t) :: along
       integer(ip) :: i, label_width, k
       integer(ip), parameter :: MARK(MOST_IN_LEGEND) = [7, 5, 9, 11, 13, 6, 4, 8, 10, 12]
-      character(len=9), parameter :: DASH(0:1) = ['dt 1     ', 'dt (8,4) ']
 
       associate (runs => overlay%runs, pair => overlay%pairs(number))
          shown = [FIELD_PRESSURE]
@@ -154,10 +153,9 @@ contains
          else
             ! A line style a run.
             do k = 1, size(runs, kind=ip)
-               points = ' ps 0'
-               if (pair%most_points <= MOST_MARKED) points = ' pt '//to_text(MARK(k))//' ps 0.8*dot'
-               call put(plots, 'set style line '//to_text(k)//' lw 1.8 lc rgb "'//COLOUR(mod(k - 1, N_COLOURS) + 1)//'" '// &
-                        DASH((k - 1)/N_COLOURS)//points)
+               points = ' dt '//trim(DASH(k))//' ps 0' ! long lines have no marks
+               if (pair%most_points <= MOST_MARKED) points = ' dt 1 pt '//to_text(MARK(k))//' ps 0.8*dot'
+               call put(plots, 'set style line '//to_text(k)//' lw 1.8 lc rgb "'//COLOUR(mod(k - 1, N_COLOURS) + 1)//'"'//points)
             end do
          end if
          do i = 1, size(shown, kind=ip)

@@ -6,7 +6,7 @@ module atrito_path_plot
    use atrito_frame_tables, only: path_values, PATH_COLUMNS
    use atrito_plot_files, only: PATH_PLOT
    use atrito_plot_scripts, only: plots_t, put, begin_data, begin_script, put_terminal, put_frame, put_panel, put_plot
-   use atrito_plot_text, only: cleaned, colour_styles, picture_title, quoted, range_of, LF
+   use atrito_plot_text, only: cleaned, colour_styles, picture_title, quoted, range_of, DASH, LF
    use atrito_results, only: history_t, results_t, last_frame
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_write_tables, only: origin_of
@@ -73,8 +73,8 @@ contains
                'path_line = '//quoted('path '//cleaned(path%name, LONGEST_NAME)))
       call put_frame(plots, 2_ip, range_of(path%s), '"s [L]"')
       call put_terminal(plots, '1000,height')
-      call put(plots, colour_styles(' lw 2')//LF//'set style line 2 dt (8,4)'//LF//'set style line 3 dt (3,3)'//LF// &
-               'set style line 4 lw 1.5 dt 1 lc rgb "#404040"')
+      call put(plots, colour_styles(' lw 2')//LF//'set style line 2 dt '//DASH(2)//LF//'set style line 3 dt '//DASH(3)//LF// &
+               'set style line 4 lw 1.5 dt '//trim(DASH(8))//' lc rgb "#404040"')
       call put(plots, 'set multiplot title heading."\n".path_line noenhanced')
       call put_panel(plots, 1_ip, 'stress', 'F/L^2', range_of([0.0_wp, values(:, columns(1)), values(:, columns(2)), &
                                                                values(:, columns(3)), values(:, column_of('mises'))]))

@@ -11,6 +11,7 @@ module atrito_plot_scripts
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: string_t, to_text
    use atrito_table, only: CSV_ENDING
+   use atrito_units, only: name_units, units_t
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
    implicit none (type, external)
    private
@@ -27,17 +28,20 @@ module atrito_plot_scripts
       type(text_file_t) :: file                     !< that is being written
       logical :: is_script = .false.                !< it is one that draws both kinds of picture in a loop
       character(len=:), allocatable :: name         !< of the picture whose script it is, without ending
+      type(units_t) :: units                        !< of the deck, in scripts
    end type plots_t
 
 contains
 
    !> Begins the files of pictures in their folder.
-   subroutine begin_plots(plots, folder)
+   subroutine begin_plots(plots, folder, units)
       type(plots_t), intent(out) :: plots           !< no file is open yet; status STATUS_FILE where the folder cannot be
       character(len=*), intent(in) :: folder        !< of the plots
+      type(units_t), intent(in), optional :: units
 
       call begin_files(plots%set, folder, plots%status)
       plots%file%status = plots%status
+      if (present(units)) plots%units = units
    end subroutine begin_plots
 
    !> Gives all files their names, or removes them where one failed. status: STATUS_FILE.
@@ -69,12 +73,15 @@ contains
       if (is_ok(plots%status)) call open_text(plots%set, name, plots%file)
    end subroutine begin_file
 
-   !> Writes a line, or several with LF between them.
+   !> Writes a line, or several with LF between them. Words of the user stand in single quotes.
    subroutine put(plots, text)
       type(plots_t), intent(inout) :: plots         !< lines go into its open file
       character(len=*), intent(in) :: text          !< without LF at its end
+      character(len=:), allocatable :: named
 
-      call put_line(plots%file, text)
+      named = text
+      if (plots%is_script) call name_units(plots%units, named, quote="'")
+      call put_line(plots%file, named)
    end subroutine put
 
    !> Begins the data of a picture.

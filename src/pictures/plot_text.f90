@@ -14,7 +14,7 @@ module atrito_plot_text
    public :: range_t, cover, padded, range_text, span, range_of
    public :: quoted, cleaned, picture_title, scene_title, engineering_exponent, power_text, colour_styles, evenly, round_step
    public :: log_axis
-   public :: LF, COLOUR, N_COLOURS, MOST_STYLES, GREEK_NU, GREEK_EPSILON, GREEK_RHO, GREEK_DELTA, PLUS_MINUS, TIMES
+   public :: LF, COLOUR, N_COLOURS, DASH, MOST_STYLES, GREEK_NU, GREEK_EPSILON, GREEK_RHO, GREEK_DELTA, PLUS_MINUS, TIMES
 
    character(len=1), parameter :: LF = achar(10)    !< between lines that are put together
    !> The palette of Okabe and Ito, made for colour-blind readers, without its yellow, which is too pale for lines.
@@ -22,6 +22,9 @@ module atrito_plot_text
    character(len=7), parameter :: COLOUR(N_COLOURS) = &
                                   ['#0072B2', '#D55E00', '#009E73', '#CC79A7', '#56B4E9', '#E69F00', '#000000']
    integer(ip), parameter :: MOST_STYLES = 3*N_COLOURS  !< colours that can be told apart
+   !> Kinds of line that can be told apart in grey, as gnuplot's dt has them.
+   character(len=13), parameter :: DASH(10) = [character(len=13) :: '1', '(9,3)', '(3,3)', '(9,3,2,3)', '(18,4)', '(9,3,2,3,2,3)', &
+                                               '(2,5)', '(18,4,5,4)', '(5,2)', '(1,2)']
    !> Letters in UTF-8.
    character(len=2), parameter :: GREEK_NU = char(206)//char(189), GREEK_EPSILON = char(206)//char(181), &
                                   GREEK_RHO = char(207)//char(129), GREEK_DELTA = char(206)//char(180), &

@@ -99,7 +99,7 @@ contains
       type(drawing_t) :: drawing
       integer(ip) :: i
 
-      call begin_plots(plots, folder)
+      call begin_plots(plots, folder, model%units)
       associate (results => history%frames(last_frame(history)))
          call draw_mesh(model, results, view, drawing)
          call write_mesh_plot(plots, drawing)

@@ -3,6 +3,7 @@ module atrito_report
    use atrito_html, only: fact_t
    use atrito_page, only: page_t
    use atrito_strings, only: string_t
+   use atrito_units, only: units_t
    implicit none (type, external)
    private
    public :: report_t, page_section_t, begin_section, add_section
@@ -31,6 +32,7 @@ module atrito_report
       type(string_t), allocatable :: files(:)       !< in the folder, without pictures
       type(string_t), allocatable :: pictures(:)    !< that were drawn, names without ending
       type(fact_t), allocatable :: versions(:)      !< of the compiler and the libraries
+      type(units_t) :: units                        !< of the deck
    end type report_t
 
 contains

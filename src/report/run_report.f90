@@ -44,6 +44,7 @@ contains
       associate (last => history%frames(last_frame(history)))
          call add_verdict(last, ending_text(history), report)
          call add_facts_of(model, history, last, report%facts)
+         report%units = model%units
          allocate (report%pairs(0), report%versions(0))
          do i = 1, pair_count(last)
             call append_string(report%pairs, 'pair '//to_text(i)//': '//pair_name(last, i))

@@ -14,6 +14,7 @@ module atrito_write_report
    use atrito_report_sections, only: contents_t, read_contents, add_numbers, add_results, add_messages, add_sources
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: to_text
+   use atrito_units, only: name_units, units_t
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
    implicit none (type, external)
    private
@@ -65,7 +66,7 @@ module atrito_write_report
                                   '@media (max-width:520px){main{padding:14px 12px 40px}h1{font-size:1.35rem}'//LF// &
                                   '.tiles{grid-template-columns:1fr 1fr;gap:8px}.tiles dd{font-size:1rem}'//LF// &
                                   '.plain div{grid-template-columns:1fr}.plain dd.small{grid-column:1}'//LF// &
-                                  'th,td{padding:.18em .45em}pre{font-size:11px}}'//LF// &
+                                  'th,td{padding:.18em .45em}pre{font-size:11px}figure img{width:620px;max-width:none}}'//LF// &
                                   '@page{size:A4;margin:14mm 13mm}'//LF// &
         '@media print{:root{color-scheme:light;--paper:#fff;--ink:#000;--soft:#444;--line:#bbb;--panel:#f6f6f6;--good:#064;'//LF// &
                                   '--good-paper:#fff;--bad:#900;--bad-paper:#fff;--accent:#0b5cad}'//LF// &
@@ -132,6 +133,8 @@ contains
       call append_sections(before, report%leading)
       call append_sections(behind, report%sections)
       call add_results(report, contents, behind)
+      call name_all(report%units, before)
+      call name_all(report%units, behind)
       call add_messages(report, behind)
       call add_sources(report, contents, behind)
       call compose_top(report, date, page)
@@ -157,6 +160,20 @@ contains
       call add_line(page, '<footer><p>'//PROGRAM_NAME//' '//PROGRAM_VERSION//', '//html_text(date)//'</p></footer>')
       call add_line(page, '</main></body></html>')
    end subroutine compose_report
+
+   !> The units of numbers and tables.
+   pure subroutine name_all(units, sections)
+      type(units_t), intent(in) :: units
+      type(page_section_t), allocatable, intent(inout) :: sections(:)
+      integer :: i, line
+
+      if (.not. allocated(sections)) return
+      do i = 1, size(sections)
+         do line = 1, sections(i)%page%n
+            call name_units(units, sections(i)%page%lines(line)%s)
+         end do
+      end do
+   end subroutine name_all
 
    pure subroutine append_sections(sections, others)
       type(page_section_t), allocatable, intent(inout) :: sections(:)

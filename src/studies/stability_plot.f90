@@ -34,7 +34,7 @@ contains
       type(status_t) :: status
       type(string_t) :: names(2)
 
-      call begin_plots(plots, plot_folder(folder))
+      call begin_plots(plots, plot_folder(folder), model%units)
       call begin_data(plots, LIMIT_PLOT, 'blocks: solved and checked, not converged; columns: '//limit%parameter// &
                       ', displacement [L]')
       call put_values(plots, limit, STATUS_OK)

@@ -6,7 +6,7 @@ module atrito_frame_tables
    use atrito_plane_state, only: STRESS_NAMES
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_model, only: model_t, path_t, is_due
-   use atrito_place_fields, only: along_direction, place_field, place_values_t, PLACE_FIELDS
+   use atrito_place_fields, only: along_direction, place_field, principal_stresses, place_values_t, PLACE_FIELDS
    use atrito_results, only: results_t, contact_result_t
    use atrito_resultant_report, only: has_resultants, build_resultants
    use atrito_rigid_report, only: build_rigid_table
@@ -215,6 +215,7 @@ contains
       do i = 1, size(STRESS_NAMES)
          call add_field(table, trim(STRESS_NAMES(i)), 'F/L^2', results%nodal_stress(i, :), scales%nodal_stress)
       end do
+      call add_principal(model, results%nodal_stress, scales%nodal_stress, table)
    end subroutine build_nodes
 
    !> Whether all nodes or elements are asked for; so it is where nothing is said.
@@ -285,7 +286,27 @@ contains
       do i = 1, size(STRESS_NAMES)
          call add_field(table, trim(STRESS_NAMES(i)), 'F/L^2', results%stress(i, :), scales%stress)
       end do
+      call add_principal(model, results%stress, scales%stress, table)
    end subroutine build_stress
+
+   !> The principal stresses of the rows of a table, where a step asks for them.
+   subroutine add_principal(model, stress, scale, table)
+      type(model_t), intent(in) :: model
+      real(wp), intent(in) :: stress(:, :)          !< (components, places) as STRESS_NAMES [F/L^2]
+      real(wp), intent(in) :: scale
+      type(table_t), intent(inout) :: table
+      real(wp) :: principal(2, table%n_rows)
+      integer(ip) :: i, place
+
+      if (.not. any(model%steps%requests%principal)) return
+      do i = 1, table%n_rows
+         place = i
+         if (allocated(table%places)) place = table%places(i)
+         principal(:, i) = principal_stresses(stress(:4, place))
+      end do
+      call add_reals(table, 's1', 'F/L^2', principal(1, :), scale)
+      call add_reals(table, 's2', 'F/L^2', principal(2, :), scale)
+   end subroutine add_principal
 
    !> A row a body.
    subroutine build_bodies(results, scales, table)

@@ -7,10 +7,10 @@ module atrito_grid
    use atrito_strings, only: append_string, string_t, to_text
    use atrito_table, only: table_t, KIND_INTEGER, KIND_REAL, KIND_WORD
    use atrito_table_text, only: fetch_integers, fetch_reals
-   use atrito_units, only: in_units, unit_names, units_t
+   use atrito_units, only: name_units
    implicit none (type, external)
    private
-   public :: grid_t, begin_grid, add_row, put_grid, put_table, name_units, CELL
+   public :: grid_t, begin_grid, add_row, put_grid, put_table, CELL
 
    character(len=1), parameter :: CELL = achar(9)   !< between the cells of a row
    integer, parameter :: INDENT = 3, GAP = 2, DIGITS = 6
@@ -57,11 +57,9 @@ contains
       end do
       allocate (ends(0:n, size(grid%rows)), width(n))
       width = 0
-      if (len(unit_names(page%units)) > 0) then
-         do i = 1, size(grid%rows)
-            call name_units(page%units, grid%rows(i)%s)
-         end do
-      end if
+      do i = 1, size(grid%rows)
+         call name_units(page%units, grid%rows(i)%s)
+      end do
       do i = 1, size(grid%rows)
          associate (row => grid%rows(i)%s)
             ends(:, i) = len(row) + 1
@@ -95,25 +93,6 @@ contains
          end do
       end associate
    end subroutine put_grid
-
-   !> `[F/L^2]` is `[kN/m^2]` where the deck names its units.
-   pure subroutine name_units(units, line)
-      type(units_t), intent(in) :: units                   !< names of the units of the deck; may be none
-      character(len=:), allocatable, intent(inout) :: line !< [..] in F and L are replaced
-      character(len=:), allocatable :: name
-      integer :: begin, end, next
-
-      begin = index(line, '[')
-      do while (begin > 0)
-         end = begin + index(line(begin:), ']') - 1
-         if (end < begin) return
-         name = in_units(units, line(begin + 1:end - 1))
-         line = line(:begin)//name//line(end:)
-         end = begin + len(name) + 1
-         next = index(line(end:), '[')
-         begin = merge(0, end + next - 1, next == 0)
-      end do
-   end subroutine name_units
 
    !> Some columns of a row.
    pure subroutine put_row(page, grid, i, ends, width, columns)

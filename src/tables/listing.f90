@@ -12,7 +12,7 @@ module atrito_listing
    use atrito_energy_report, only: describe_energies
    use atrito_extreme_report, only: describe_extremes
    use atrito_frame_tables, only: build_frame_table, has_frame_rows
-   use atrito_grid, only: grid_t, begin_grid, add_row, name_units, put_grid, put_table, CELL
+   use atrito_grid, only: grid_t, begin_grid, add_row, put_grid, put_table, CELL
    use atrito_increments, only: has_history, increment_name, ending_text
    use atrito_model, only: model_t
    use atrito_results, only: results_t, history_t, balance_t, error_bound_t, last_frame, view_frame
@@ -28,7 +28,7 @@ module atrito_listing
                              pair_count, pair_name
    use atrito_patched_text, only: take_ends
    use atrito_table, only: table_t, clear_small, ZERO_SHARE
-   use atrito_units, only: unit_names
+   use atrito_units, only: name_units
    use atrito_utf8, only: visible
    implicit none (type, external)
    private
@@ -102,7 +102,7 @@ contains
          call add_tables(page, model, history, scales, own)
          call add_end(page, last, pictures)
       end associate
-      do i = first, merge(page%n, 0, len(unit_names(model%units)) > 0)
+      do i = first, page%n
          call name_units(model%units, page%lines(i)%s)
       end do
    end subroutine compose_listing

@@ -5,7 +5,7 @@ module atrito_page
    use atrito_strings, only: string_t, break_line, join, to_text
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
    use atrito_system, only: hide_line
-   use atrito_units, only: units_t
+   use atrito_units, only: name_units, units_t
    use atrito_utf8, only: visible
    implicit none (type, external)
    private
@@ -18,6 +18,7 @@ module atrito_page
       integer :: n = 0                              !< lines so far
       type(string_t), allocatable :: lines(:)       !< the first n are in use
       type(units_t) :: units                        !< that have names
+      integer :: n_titles = 0                       !< lines at its top that are the user's
    end type page_t
 
    integer, parameter :: SCREEN_WIDTH = 79          !< a terminal of 80 columns does not wrap
@@ -167,11 +168,14 @@ contains
    subroutine print_page(page, unit)
       type(page_t), intent(in) :: page !< all its lines are printed
       integer, intent(in) :: unit      !< of Fortran, open
+      character(len=:), allocatable :: line
       integer :: i, ios
 
       call hide_line()
       do i = 1, page%n
-         write (unit, '(a)', iostat=ios) visible(page%lines(i)%s)
+         line = page%lines(i)%s
+         if (i > page%n_titles) call name_units(page%units, line)
+         write (unit, '(a)', iostat=ios) visible(line)
          if (ios /= 0) return
       end do
       flush (unit, iostat=ios)

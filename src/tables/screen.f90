@@ -21,6 +21,7 @@ module atrito_screen
    use atrito_summary, only: bound_text, error_text, large_text, pair_summary_t, summarise_pair, states_text, closed_word, &
                              body_count, pair_count, pair_name, uniqueness_text
    use atrito_table, only: TAB_ENDING, CSV_ENDING
+   use atrito_units, only: in_units
    implicit none (type, external)
    private
    public :: compose_summary, compose_check
@@ -48,6 +49,8 @@ contains
 
       call begin_report(page, what//'   '//model%deck_path)
       if (size(model%heading) > 0) call add_line(page, left(model%heading(1)%s, page%width))
+      page%units = model%units
+      page%n_titles = page%n
    end subroutine begin_deck_report
 
    !> Composes the summary: of a history its last increment. folder and files: where the run was written.
@@ -331,7 +334,8 @@ contains
          return
       end if
       call add_line(page, row_text('', 'effective', 'max. p /', 'max. p /', 'resultant'))
-      call add_line(page, row_text('contact pair', 'area [%]', 'uniform', 'triangular', 'from end [L]'))
+      call add_line(page, row_text('contact pair', 'area [%]', 'uniform', 'triangular', &
+                                   'from end ['//in_units(page%units, 'L')//']'))
       do i = 1, shown
          call add_pair(page, to_text(i)//' '//pair_name(results, i), results%contact(i))
       end do

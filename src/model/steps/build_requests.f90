@@ -231,7 +231,7 @@ contains
       type(build_context_t), intent(in) :: context
       type(requested_t), intent(inout) :: requested
       logical, allocatable :: chosen(:)
-      logical :: ok
+      logical :: ok, with_principal
 
       associate (model => context%model)
          if (index(keyword_name(card), 'NODE') == 1) then
@@ -240,7 +240,11 @@ contains
             if (ok .and. asks_for(context%deck, card, 'RF')) call ask_for(chosen, requested%reactions, requested%node_rf)
          else
             call choose_members(card, 'ELSET', model%mesh%n_elements, context, chosen, ok)
-            if (ok .and. asks_for(context%deck, card, 'S')) call ask_for(chosen, requested%stress, requested%element_s)
+            with_principal = keyword_name(card) == 'EL PRINT' .and. asks_for(context%deck, card, 'SP')
+            requested%principal = requested%principal .or. with_principal
+            if (ok .and. (with_principal .or. asks_for(context%deck, card, 'S'))) then
+               call ask_for(chosen, requested%stress, requested%element_s)
+            end if
          end if
       end associate
    end subroutine read_request_card
@@ -252,11 +256,13 @@ contains
       type(requests_t), intent(inout) :: requests
       logical, allocatable :: elements(:), nodes(:)
       integer(ip) :: e
-      logical :: ok
+      logical :: ok, with_principal
 
       associate (mesh => context%model%mesh)
          call choose_members(card, 'ELSET', mesh%n_elements, context, elements, ok)
-         if (.not. ok .or. .not. asks_for(context%deck, card, 'S')) return
+         with_principal = asks_for(context%deck, card, 'SP')
+         requests%principal = requests%principal .or. with_principal
+         if (.not. ok .or. .not. (with_principal .or. asks_for(context%deck, card, 'S'))) return
          allocate (nodes(mesh%n_nodes), source=.false.)
          do e = 1, mesh%n_elements
             if (elements(e)) nodes(mesh%nodes(:mesh%shape(e), e)) = .true.

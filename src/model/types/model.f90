@@ -178,6 +178,7 @@ module atrito_model
    !> Nodes, elements and contact that were asked for.
    type :: requested_t
       logical :: nodes = .false., reactions = .false., stress = .false., contact = .false. !< asked for, at some node or element
+      logical :: principal = .false.                !< stresses, too: in a table of all steps
       logical, allocatable :: node_u(:), node_rf(:), element_s(:)  !< which nodes, nodes, elements; allocated when asked for
    end type requested_t
 

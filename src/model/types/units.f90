@@ -4,7 +4,7 @@ module atrito_units
    use atrito_strings, only: string_t
    implicit none (type, external)
    private
-   public :: units_t, unit_names, in_units, N_UNITS
+   public :: units_t, unit_names, in_units, name_units, N_UNITS
 
    integer(ip), parameter :: N_UNITS = 4
 
@@ -31,6 +31,31 @@ contains
          text = text//units%names(k)%s
       end do
    end function unit_names
+
+   !> `[F/L^2]` is `[kN/m^2]` in a line for people, where the deck names its units.
+   pure subroutine name_units(units, line, quote)
+      type(units_t), intent(in) :: units
+      character(len=:), allocatable, intent(inout) :: line
+      character(len=1), intent(in), optional :: quote   !< round the words of the user, which stay
+      character(len=:), allocatable :: name
+      integer :: begin, end, next, k
+      logical :: is_ours
+
+      if (.not. any([(allocated(units%names(k)%s), k=1, N_UNITS)])) return
+      begin = index(line, '[')
+      do while (begin > 0)
+         end = begin + index(line(begin:), ']') - 1
+         if (end < begin) return
+         name = line(begin + 1:end - 1)
+         is_ours = .true.
+         if (present(quote)) is_ours = mod(count([(line(k:k) == quote, k=1, begin)]), 2) == 0
+         if (is_ours) name = in_units(units, name)
+         line = line(:begin)//name//line(end:)
+         end = begin + len(name) + 1
+         next = index(line(end:), '[')
+         begin = merge(0, end + next - 1, next == 0)
+      end do
+   end subroutine name_units
 
    !> A dimension in the units of a deck: 'F/L^2' is 'kN/m^2'. What has no name stays as it is: 'F/L^2'.
    pure function in_units(units, dimension) result(text)
