@@ -195,6 +195,9 @@ contains
    end subroutine add_up_body
 
    !> The largest value of all bodies that touch, directly or by others without load, for each without load.
+   !>
+   !> A round goes over all rows and hands the larger value on; values only grow, and are among those there were at first, so it
+   !> ends after as many rounds as there are bodies in a chain, at the most.
    subroutine spread_to_touching(fem, rows, is_loaded, values)
       type(fem_t), intent(in) :: fem
       type(contact_rows_t), intent(in) :: rows
@@ -244,6 +247,17 @@ contains
 
    !> Signs, complementarity, friction bound and direction at every point, with the final displacements. Sets results%law_holds
    !> and, where a converged solution breaks it, the verdict.
+   !>
+   !> With p, t, gap g and slip u_T as the results have them, tau = nu S_rho(p) of these p, and s the slip beyond the rest slip:
+   !>
+   !>      places      g and u_T are those of the displacements                                     judge_place
+   !>      normal      p >= 0;  g + delta p = 0 where p > 0;  g >= 0 where p = 0                    judge_normal
+   !>      friction    |t| <= tau;  t = tau sign(s) where |s| is beyond what sticking lets;
+   !>                  else t is what the law gives for s                                           judge_friction
+   !>      bilateral   row . u = value + compliance q                                               check_bilateral_rows
+   !>
+   !> each within what round-off leaves open (atrito_contact_scales). States and residuals of the solver are not looked at, only
+   !> fields, displacements and laws. So a point that was closed by mistake, or slips the wrong way, shows here.
    subroutine check_law(rows, line, tolerance, results, of_node, growth, had, condition, round_off)
       type(contact_rows_t), intent(in) :: rows   !< gaps and slips of the points
       type(contact_line_t), intent(in) :: line   !< laws, deltas and weights of the points
