@@ -21,14 +21,14 @@
 !> What each state means. r is what the law does not account for: the overlap beyond delta p of a normal row, the slip beyond the
 !> elastic slip D q of a tangential one.
 !>
-!>      row          state       the point          it says              it asks for
-!>      normal       FREE        is closed          r = 0                q >= 0, pressure
-!>      normal       AT_LOWER    is open            q = 0                r <= 0, a gap of -r
-!>      tangential   FREE        sticks             r = 0                -w tau <= q <= w tau
-!>      tangential   AT_UPPER    slips along T      q = w tau            r >= 0, slip along T
-!>      tangential   AT_LOWER    slips against T    q = -w tau           r <= 0, slip against T
-!>      tangential   FROZEN      has no bound       q = 0                nothing
-!>      bilateral    FREE        is joined          r = 0                nothing
+!>     row          state       the point          it says              it asks for
+!>     normal       FREE        is closed          r = 0                q >= 0, pressure
+!>     normal       AT_LOWER    is open            q = 0                r <= 0, a gap of -r
+!>     tangential   FREE        sticks             r = 0                -w tau <= q <= w tau
+!>     tangential   AT_UPPER    slips along T      q = w tau            r >= 0, slip along T
+!>     tangential   AT_LOWER    slips against T    q = -w tau           r <= 0, slip against T
+!>     tangential   FROZEN      has no bound       q = 0                nothing
+!>     bilateral    FREE        is joined          r = 0                nothing
 !>
 !> What a state says makes the equations of a linear solve; what it asks for is looked at afterwards, and nothing else is. With all
 !> of it the conditions of Signorini and of Tresca hold at every point, and the solve is the solution of the QP.

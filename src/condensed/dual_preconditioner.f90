@@ -185,7 +185,7 @@ contains
    !>
    !> The inverse is wanted in full, k being three a body at the most: with S = diag(scale)^-1 V diag(values) V' diag(scale)^-1
    !>
-   !>      inverse = sum_i (scale v_i) (scale v_i)' / value_i,
+   !>     inverse = sum_i (scale v_i) (scale v_i)' / value_i,
    !>
    !> one term a motion. It takes k solves with the factor, 2 n^2 operations each, before the first step.
    subroutine prepare_motions(factor, system, p, held)

@@ -272,7 +272,7 @@ contains
    !>
    !> As long as every step converges the factors are
    !>
-   !>      64   22.6   8   2.8   1          s = 1, 3/4, 1/2, 1/4, 0
+   !>     64   22.6   8   2.8   1          s = 1, 3/4, 1/2, 1/4, 0
    !>
    !> 1. With 64 times the friction, from the plain start. Where that fails there is nothing to follow, and it ends. 2. s goes down
    !> by `step`. The bound of the solution before, times the factor of the step, is the first guess; Newton's method takes the

@@ -19,7 +19,7 @@
 !> convex function is no larger than that, in one bounded set. The q of least energy goes continuously with its bounds. A
 !> continuous map of a bounded convex set of bounds into itself has a fixed point (Brouwer). Between two bounds
 !>
-!>      |p(tau_1) - p(tau_2)| <= L |tau_1 - tau_2|,     so that     |image_1 - image_2| <= nu |S_rho| L |tau_1 - tau_2|,
+!>     |p(tau_1) - p(tau_2)| <= L |tau_1 - tau_2|,     so that     |image_1 - image_2| <= nu |S_rho| L |tau_1 - tau_2|,
 !>
 !> L being the greatest rate at which pressure follows friction in any set of states. Where nu |S_rho| L < 1 the map contracts: one
 !> fixed point, and the error falls at least by that factor at each step. L comes from the coupling C_nt of tangential and normal

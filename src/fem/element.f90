@@ -95,11 +95,11 @@ contains
 
    !> The integrals over the element of ga gb', a < b.
    !>
-   !>      nodes       points     degree of ga gb' in xi and in eta     reduced
-   !>      4           2 x 2      2                                     1
-   !>      8, 9        3 x 3      4                                     2 x 2 of eight nodes
-   !>      3           1          0
-   !>      6           3          2, of both together
+   !>     nodes       points     degree of ga gb' in xi and in eta     reduced
+   !>     4           2 x 2      2                                     1
+   !>     8, 9        3 x 3      4                                     2 x 2 of eight nodes
+   !>     3           1          0
+   !>     6           3          2, of both together
    !>
    !> The degrees are those of parallelograms and straight triangles, where det(J) is constant: full rules are exact for them. In
    !> other elements ga gb' is a quotient. For all shapes every rule has the integral of ga exactly, since ga det(J) is a
@@ -270,7 +270,7 @@ contains
    !> The work of the mean dilatation (T. J. R. Hughes, Int. J. Numer. Methods Eng. 15, 1980, for the plane: half of it in either
    !> direction; e33 stays 0, and s33 = mu (s11 + s22)).
    !>
-   !>      theta_m = sum_a m_a . u_a  in place of  theta = sum_a ga . u_a:     (lambda + G) A m_a m_b' t,     m_a the mean of ga
+   !>     theta_m = sum_a m_a . u_a  in place of  theta = sum_a ga . u_a:     (lambda + G) A m_a m_b' t,     m_a the mean of ga
    !>
    !> As mu goes to 1/2 lambda grows without bound; theta = 0 at four points, with two dofs an element in a large mesh, would lock
    !> it.

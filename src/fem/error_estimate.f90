@@ -92,9 +92,9 @@ contains
 
    !> For each element, by the points of a rule:
    !>
-   !>      s       D B u, less what the temperature takes
-   !>      d       sum_k N_k s*_k - s, s*_k the recovered stresses of its nodes
-   !>      sums    of volume s C s, of volume d C d, and of volume max(D11, D22) (eps |u|)^2 |dxi/dx|^2, the round-off
+   !>     s       D B u, less what the temperature takes
+   !>     d       sum_k N_k s*_k - s, s*_k the recovered stresses of its nodes
+   !>     sums    of volume s C s, of volume d C d, and of volume max(D11, D22) (eps |u|)^2 |dxi/dx|^2, the round-off
    !>
    !> In rings s33 adds its own terms (add_hoop). The sums of a chunk of elements are added up by themselves and the chunks then in
    !> their order, so the numbers do not depend on how many threads there are.

@@ -17,7 +17,7 @@ contains
 
    !> Forces [F] of a traction of the same size and direction along the face.
    !>
-   !>      f_a = int N_a traction h |dx/dt| dt
+   !>     f_a = int N_a traction h |dx/dt| dt
    !>
    !> The length |dx/dt| of a curved side is the root of a polynomial, which no Gauss rule has exactly. So the side is cut into
    !> panels of five points each, whose error falls with the tenth power of their length. On straight sides with the middle node in
@@ -74,7 +74,7 @@ contains
    !>
    !> value(t) = mean + half t + bend t^2 through the three nodes at t = -1, 1 and 0. Of the two roots
    !>
-   !>      r = -(half + sign(half) sqrt(half^2 - 4 bend mean))/2,     t1 = mean/r,     t2 = r/bend,
+   !>     r = -(half + sign(half) sqrt(half^2 - 4 bend mean))/2,     t1 = mean/r,     t2 = r/bend,
    !>
    !> neither takes the difference of two near numbers, and each quotient is formed only where it is not far outside of the face: a
    !> straight face, bend = 0, has t1 alone. Between two cuts the value keeps its sign, so the pressure is a polynomial on each

@@ -60,11 +60,11 @@ contains
 
    !> Recovers the stresses of a displacement field.
    !>
-   !>      1. zones and patches (build_patches)
-   !>      2. stresses of u at the best points of all elements (sample_stresses)
-   !>      3. at each node with a patch the polynomial through the samples round it, and its value there (fit_chunk)
-   !>      4. the others take the mean of what the best patches at hand have at their place (borrow_stresses)
-   !>      5. in rings once more for the hoop stress, which goes the same way as if it were a component in the plane
+   !>     1. zones and patches (build_patches)
+   !>     2. stresses of u at the best points of all elements (sample_stresses)
+   !>     3. at each node with a patch the polynomial through the samples round it, and its value there (fit_chunk)
+   !>     4. the others take the mean of what the best patches at hand have at their place (borrow_stresses)
+   !>     5. in rings once more for the hoop stress, which goes the same way as if it were a component in the plane
    !>
    !> All patches are small: some 4 to 18 samples for 3 or 6 terms, so it takes a time in proportion to the number of elements.
    subroutine recover_stress_field(fem, u, field)

@@ -15,7 +15,7 @@ contains
 
    !> Means over the volume of the gradients of the shape functions: theta_m = sum(mean*u) [1/L].
    !>
-   !>      m_a = (1/V) int h grad N_a dA,     V = int h dA
+   !>     m_a = (1/V) int h grad N_a dA,     V = int h dA
    !>
    !> det(J) grad N_a is a polynomial, and so is h times it: the rule of the stiffness has both integrals exactly. With h = 1 four
    !> nodes have the means of mean_gradients.

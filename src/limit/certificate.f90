@@ -58,10 +58,10 @@ contains
 
    !> Judges all groups. IMPOSSIBLE: one of them has a motion that proves it, that of the greatest excess over its loads is given.
    !>
-   !>      1. groups of bodies that touch: a force or a motion of one group has no part in another one (find_groups)
-   !>      2. of each group one linear programme, whose solution tries to be forces in balance, and whose duals to be a motion that
-   !>         proves that there are none (judge_group)
-   !>      3. POSSIBLE where all groups have forces; IMPOSSIBLE where one has a motion; else UNDECIDED
+   !>     1. groups of bodies that touch: a force or a motion of one group has no part in another one (find_groups)
+   !>     2. of each group one linear programme, whose solution tries to be forces in balance, and whose duals to be a motion that
+   !>        proves that there are none (judge_group)
+   !>     3. POSSIBLE where all groups have forces; IMPOSSIBLE where one has a motion; else UNDECIDED
    !>
    !> By duality of linear programmes one of the two answers exists always. Near the limit both may drown in round-off: then none
    !> is given.
@@ -189,7 +189,7 @@ contains
    !> How far loads can go from those of `rows` towards others: the largest share s of the way with G'q = h + s (h' - h) for some
    !> forces that the contact can take. One linear programme, that of the balance with s as one more column and without remainders.
    !>
-   !>      maximise s     with   G' q - s (h' - h) = h,   0 <= s <= 1,   q such that the contact can take it
+   !>     maximise s     with   G' q - s (h' - h) = h,   0 <= s <= 1,   q such that the contact can take it
    !>
    !> If shares s1 < s2 can be balanced, by q1 and q2, all between can, by the forces between, as the conditions on q are linear.
    !> So the largest share is where the balance ends on the way from h to h', and one programme tells what otherwise takes a

@@ -69,11 +69,11 @@ contains
 
    !> Orders the wanted nodes of some elements.
    !>
-   !>      1. measure         middle and extent of each element, in the axes of the guide
-   !>      2. split           a set of elements in two, by the guide's halves or a line (choose_cut); refined where asked for
-   !>      3. take_separator  the free nodes that elements of both parts have
-   !>      4. the same with each part, until a set has few nodes (LEAF); these are a part of the order as they come (take_rest)
-   !>      5. add_part        order: lower part, upper part, separator
+   !>     1. measure         middle and extent of each element, in the axes of the guide
+   !>     2. split           a set of elements in two, by the guide's halves or a line (choose_cut); refined where asked for
+   !>     3. take_separator  the free nodes that elements of both parts have
+   !>     4. the same with each part, until a set has few nodes (LEAF); these are a part of the order as they come (take_rest)
+   !>     5. add_part        order: lower part, upper part, separator
    !>
    !> Why the separator comes last. To eliminate a node couples all its neighbours that are still there. No element joins a node of
    !> the lower part with one of the upper part, so nothing of the one couples to the other until the separator is reached, whose

@@ -46,10 +46,10 @@ contains
    !> All is told in operations of the factorisation: OPERATIONS for each unit of the sum of (nodes of a separator)^3, plus what
    !> ordering itself takes for each element.
    !>
-   !>      1. by the places of the elements: that is what small meshes get, and all those whose separators are short
-   !>      2. the same with elements that change sides at the cuts, if the mesh is irregular, what that saves is more than it
-   !>         takes, and what may come of it is less than METIS would leave
-   !>      3. cuts by METIS of a graph of clusters of up to 2^ROUNDS elements, refined, if less is expected of that than there is
+   !>     1. by the places of the elements: that is what small meshes get, and all those whose separators are short
+   !>     2. the same with elements that change sides at the cuts, if the mesh is irregular, what that saves is more than it
+   !>        takes, and what may come of it is less than METIS would leave
+   !>     3. cuts by METIS of a graph of clusters of up to 2^ROUNDS elements, refined, if less is expected of that than there is
    !>
    !> Each of them is taken if its own separators have less work than those before: a prediction that was wrong costs time, not
    !> work. What METIS would come to is told from separators of a square of a regular mesh (regular_work), METIS_SHARE times them.

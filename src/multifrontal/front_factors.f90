@@ -119,7 +119,7 @@ contains
    !>
    !> With P_c for the places of a child's border in the front of its parent, and A_e for the elements that the front takes,
    !>
-   !>      F = sum_e A_e + sum_c P_c U_c P_c',        [ F_pp  F_bp' ; F_bp  F_bb ]  ->  L_p, L_b and U = F_bb - L_b L_b'.
+   !>     F = sum_e A_e + sum_c P_c U_c P_c',        [ F_pp  F_bp' ; F_bp  F_bb ]  ->  L_p, L_b and U = F_bb - L_b L_b'.
    !>
    !> Children come before parents. By induction U is the Schur complement of all that was eliminated in the subtree, as its
    !> ancestors see it, so the L of all fronts together is the Cholesky factor of the matrix in the order of the dissection, whose
@@ -229,8 +229,8 @@ contains
 
    !> Cuts the classes into tasks: those that are new in a subtree of little work follow one another.
    !>
-   !>      class     1  2  3  4 | 5  6  7 | 8 | 9 | 10          | between tasks
-   !>      wave      1            1         2   2   3
+   !>     class     1  2  3  4 | 5  6  7 | 8 | 9 | 10          | between tasks
+   !>     wave      1            1         2   2   3
    !>
    !> Classes are numbered as they were met in postorder. Those that follow each other and are new in the same small subtree are
    !> one task; each class above the subtrees is a task by itself. A small subtree may need a class that an earlier one has made:

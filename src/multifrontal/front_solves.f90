@@ -76,11 +76,11 @@ contains
       end do
    end subroutine forward_subtree
 
-   !>      1. front = [ x of the pivots ; 0 ]
-   !>      2. the vectors that the children have left are the last ones on the stack, one child after the other; each is added
-   !>         to the front at the places that the record tells
-   !>      3. x_p <- L_p^-1 x_p;  the border gets -L_b x_p  (eliminate_load)
-   !>      4. x takes x_p; the border goes on the stack, for the parent
+   !>     1. front = [ x of the pivots ; 0 ]
+   !>     2. the vectors that the children have left are the last ones on the stack, one child after the other; each is added
+   !>        to the front at the places that the record tells
+   !>     3. x_p <- L_p^-1 x_p;  the border gets -L_b x_p  (eliminate_load)
+   !>     4. x takes x_p; the border goes on the stack, for the parent
    !>
    !> The last supernode has no pivots: its front is what the retained equations get, f_c - K_ci K_ii^-1 f_i.
    subroutine forward_supernode(fronts, p, order, n_pivots, by_threads, x, stack)

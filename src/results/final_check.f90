@@ -250,11 +250,11 @@ contains
    !>
    !> With p, t, gap g and slip u_T as the results have them, tau = nu S_rho(p) of these p, and s the slip beyond the rest slip:
    !>
-   !>      places      g and u_T are those of the displacements                                     judge_place
-   !>      normal      p >= 0;  g + delta p = 0 where p > 0;  g >= 0 where p = 0                    judge_normal
-   !>      friction    |t| <= tau;  t = tau sign(s) where |s| is beyond what sticking lets;
-   !>                  else t is what the law gives for s                                           judge_friction
-   !>      bilateral   row . u = value + compliance q                                               check_bilateral_rows
+   !>     places      g and u_T are those of the displacements                                     judge_place
+   !>     normal      p >= 0;  g + delta p = 0 where p > 0;  g >= 0 where p = 0                    judge_normal
+   !>     friction    |t| <= tau;  t = tau sign(s) where |s| is beyond what sticking lets;
+   !>                 else t is what the law gives for s                                           judge_friction
+   !>     bilateral   row . u = value + compliance q                                               check_bilateral_rows
    !>
    !> each within what round-off leaves open (atrito_contact_scales). States and residuals of the solver are not looked at, only
    !> fields, displacements and laws. So a point that was closed by mistake, or slips the wrong way, shows here.

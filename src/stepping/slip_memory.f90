@@ -58,10 +58,10 @@ contains
 
    !> What counts is the friction bound, not the pressure: the nonlocal law has one at open points beside closed ones, too.
    !>
-   !>      state of the point                rest slip s0 after the increment      dissipated
-   !>      without a bound, or no friction   u_T                                   0
-   !>      slips                             u_T - c t                             w mean(t) (change of s0)
-   !>      sticks                            as before                             0
+   !>     state of the point                rest slip s0 after the increment      dissipated
+   !>     without a bound, or no friction   u_T                                   0
+   !>     slips                             u_T - c t                             w mean(t) (change of s0)
+   !>     sticks                            as before                             0
    !>
    !> The work of friction is the integral of w t ds0. A point that slid before, the same way, is taken to go from its last shear
    !> to this one in a straight line, so the mean is that of both. A point that began to slide had come to its bound before s0

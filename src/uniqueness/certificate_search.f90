@@ -81,10 +81,10 @@ contains
    !>
    !> Each round, at (alpha, gamma) = (e^x, e^y):
    !>
-   !>      1. the Cholesky factor of H; where there is none alpha is too far from 1, and x goes back towards 0, which is A itself
-   !>      2. the largest ratio there, and its vector z, by some steps of Lanczos from the z of the round before
-   !>      3. the cut of z; the best place so far
-   !>      4. from that the place where the greatest of all cuts is least, within reach; reach doubles where all of it was used
+   !>     1. the Cholesky factor of H; where there is none alpha is too far from 1, and x goes back towards 0, which is A itself
+   !>     2. the largest ratio there, and its vector z, by some steps of Lanczos from the z of the round before
+   !>     3. the cut of z; the best place so far
+   !>     4. from that the place where the greatest of all cuts is least, within reach; reach doubles where all of it was used
    !>
    !> It ends where the ratio is low enough for the coefficient that is asked for, or where the cuts, which are lower bounds of the
    !> ratio, say that no place within reach is better by more than two per cent.
@@ -169,7 +169,7 @@ contains
    !>
    !> With x = X z_n and v = L' z_t + x the two halves of z'A z are
    !>
-   !>      c = z_n'A_nn z_n + x'(v - x),     d = (v - x)'v,     so that z'H z = alpha c + d.
+   !>     c = z_n'A_nn z_n + x'(v - x),     d = (v - x)'v,     so that z'H z = alpha c + d.
    !>
    !> z'R z is known from the ratio, lambda (alpha c + d). One of its two terms is computed, the other one is what is left.
    type(cut_t) function cut_of(form, forms, place, z) result(cut)
