@@ -141,6 +141,11 @@ contains
 
    !> Z'(f - B'q) of every rigid motion, relative to the forces on the body; the worst. A body without load rests: what is round-off
    !> of the forces on those that touch it, directly or by others without load, counts as none.
+   !>
+   !>     |Z_j'(f - B'q)| / sum over the nodes of (|f| + |B'q|)      the largest of all motions j of all bodies
+   !>
+   !> Z_j is the motion at the free dofs. What cancels in the sum is thereby measured by what it is the sum of. Bodies without a
+   !> load of their own have forces of the others' round-off alone, which is why it is spread to them first.
    real(wp) function check_balance(fem, f, contact, rows, had) result(worst)
       type(fem_t), intent(in) :: fem                 !< its bodies, and their rigid motions
       real(wp), intent(in) :: f(:, :), contact(:, :) !< (2, n_nodes) [F]
