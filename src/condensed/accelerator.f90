@@ -93,6 +93,15 @@ contains
    end subroutine reset_anderson
 
    !> gamma = argmin |f - dF gamma|; next = x + mixing f - (dX + mixing dF) gamma, and not below 0.
+   !>
+   !> Why that helps. On a line g the residual at x - dX gamma would be f - dF gamma, for any gamma: a combination of the last
+   !> bounds has the same combination of their residuals. So the least squares choose the place where the residual is least, as far
+   !> as the last six bounds tell, and the step from there is Picard's, with what residual is left:
+   !>
+   !>     x' = x - dX gamma,     f' = f - dF gamma,     next = x' + mixing f'.
+   !>
+   !> With one difference and one unknown it is the secant method. Columns of dF that agree to 1e-10 of the largest singular value
+   !> give no direction of their own. The cost, some 2 n 5^2 operations, is nothing beside the QP that gave g.
    subroutine update_anderson(self, x, g, next)
       class(anderson_t), intent(inout) :: self
       real(wp), intent(in) :: x(:), g(:)

@@ -17,6 +17,21 @@
 !>
 !> Full steps end in a few solves almost always, but nothing makes them. When a state comes back, after MOST_FULL_STEPS, or when a
 !> body is free under the load, the finite Goldfarb-Idnani steps take over (atrito_goldfarb_idnani).
+!>
+!> What each state means. r is what the law does not account for: the overlap beyond delta p of a normal row, the slip beyond the
+!> elastic slip D q of a tangential one.
+!>
+!>     row          state       the point          it says              it asks for
+!>     normal       FREE        is closed          r = 0                q >= 0, pressure
+!>     normal       AT_LOWER    is open            q = 0                r <= 0, a gap of -r
+!>     tangential   FREE        sticks             r = 0                -w tau <= q <= w tau
+!>     tangential   AT_UPPER    slips along T      q = w tau            r >= 0, slip along T
+!>     tangential   AT_LOWER    slips against T    q = -w tau           r <= 0, slip against T
+!>     tangential   FROZEN      has no bound       q = 0                nothing
+!>     bilateral    FREE        is joined          r = 0                nothing
+!>
+!> What a state says makes the equations of a linear solve; what it asks for is looked at afterwards, and nothing else is. With all
+!> of it the conditions of Signorini and of Tresca hold at every point, and the solve is the solution of the QP.
 module atrito_active_set
    use atrito_free_set, only: solve_free_set, is_vanishing, put_at_bounds, row_round_off, force_round_off
    use atrito_kinds, only: ip, lp, wp, HUGE_REAL
@@ -40,6 +55,11 @@ contains
 
    !> Solves from the given state (state%state; fixed unknowns are put at their bounds). Every linear solve is recorded.
    !> status: STATUS_SINGULAR with DEPENDENT_POINTS. outcome%moves: no equilibrium. Neither that nor solved: too many solves.
+   !>
+   !> The next set depends on the present one alone, so one that comes back would come back for ever: that is what `seen` is for.
+   !> The steps at hand are 20, or one for each 20 unknowns where that is more. A step costs a linear solve, which has a factor of
+   !> its own only where the set has changed by much (atrito_free_set), and 2 m^2 operations for r of all rows. The finite steps go
+   !> on from the last set, whose states are right at most points.
    subroutine solve_box(problem, bounds, state, history, outcome, status, factor)
       type(bound_qp_t), intent(in) :: problem !< the QP: C, G, g0, h
       type(box_bounds_t), intent(in) :: bounds !< of the m forces [F], and their D [L/F]

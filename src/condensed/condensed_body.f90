@@ -191,6 +191,13 @@ contains
       !>
       !> S of a floating body is singular on the rigid motions at its contact dofs. Q is an orthonormal basis of them: fewer than
       !> the motions where one contact dof alone is there, which two motions move alike. orthonormalise finds how many there are.
+      !>
+      !>     1. S = K_cc - K_ci K_ii^-1 K_ic, which the solver of the interior hands over; order n, a full matrix
+      !>     2. z, the rigid motions at the contact dofs, made orthonormal: q, of as many columns as are independent there
+      !>     3. S + alpha q q', regular, as S is positive on all that is no rigid motion
+      !>     4. its Cholesky factor, n^3/3 operations
+      !>
+      !> A load in balance has no part along q, and the answer to it none that alpha makes: (S + alpha q q')^-1 f solves S u = f.
       subroutine factor_contact()
          real(wp), allocatable :: q(:, :), qs(:, :)
          real(wp) :: alpha

@@ -182,6 +182,12 @@ contains
    !>
    !> A motion that is held weakly (an eigenvalue below WEAKLY_HELD) is decided on by digits that P does not have: a factor of its
    !> own.
+   !>
+   !> The inverse is wanted in full, k being three a body at the most: with S = diag(scale)^-1 V diag(values) V' diag(scale)^-1
+   !>
+   !>     inverse = sum_i (scale v_i) (scale v_i)' / value_i,
+   !>
+   !> one term a motion. It takes k solves with the factor, 2 n^2 operations each, before the first step.
    subroutine prepare_motions(factor, system, p, held)
       type(free_set_factor_t), intent(in) :: factor
       type(free_system_t), intent(in) :: system

@@ -46,6 +46,17 @@ contains
 
    !> Replaces state%q by the least forces; what is between its bounds then is free. is_shared tells the rows whose force is not
    !> unique.
+   !>
+   !>     1. list_components     the rows that may depend on each other, in groups that share no dof
+   !>     2. extract_component   A and y of a group, scaled
+   !>     3. find_shared         rows that the null space of A touches; none: the forces of the group are unique
+   !>     4. shorten             the shortest y with the same A y within the bounds
+   !>     5. find_shared again   its rows are those whose force is not unique
+   !>
+   !> Example. Where three bodies have a node each at one place, the rows of the three pairs along a direction are u_A - u_B, u_B -
+   !> u_C and u_C - u_A. Their sum is nothing, so the same force may be added to all three and no body feels it. The least forces
+   !> are those without such a part. Rows with a compliance of their own do not change (may_change): there the law says which force
+   !> is right.
    subroutine find_least_forces(rows, weight, bounds, may_change, state, is_shared)
       type(constraint_rows_t), intent(in) :: rows !< A: what each force does at the displacements
       real(wp), intent(in) :: weight(:)          !< (n) of the rows' points [L^2]

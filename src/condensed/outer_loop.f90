@@ -269,6 +269,18 @@ contains
    !> From the solution with much more friction to that of the line: the coefficients take the factors LARGEST_FACTOR**s, s from 1
    !> to 0, each from the solution of the one before. A step that does not converge is halved. (With much friction points that carry
    !> pressure stick, so the states are found as without a bound; how they begin to slip is followed step by step.)
+   !>
+   !> As long as every step converges the factors are
+   !>
+   !>     64   22.6   8   2.8   1          s = 1, 3/4, 1/2, 1/4, 0
+   !>
+   !> 1. With 64 times the friction, from the plain start. Where that fails there is nothing to follow, and it ends. 2. s goes down
+   !> by `step`. The bound of the solution before, times the factor of the step, is the first guess; Newton's method takes the
+   !> states along, and the loop does where they change too much (solve_near). 3. A step that converges is doubled, up to a
+   !> quarter; one that does not is halved, and tried again from the last solution. Below 1e-3, or with too many solves, it is
+   !> given up.
+   !>
+   !> The last problem, at s = 0, is that of the line itself: the factors are a way, and leave nothing in the solution.
    subroutine ease_friction(task, tau, solution, status)
       type(line_task_t), intent(in) :: task
       real(wp), intent(in) :: tau(:)                 !< first bound

@@ -14,6 +14,18 @@
 !> The loop stops when bound and image agree to the tolerance, pair by pair; when round-off, as the condition of the contact matrix
 !> tells it, leaves no more to gain; when bounds come again in a cycle; or when no bound holds the bodies.
 !>
+!> Why there is a fixed point, and when the loop finds it. Where the line is held without friction, the forces without friction are
+!> admissible for every tau. The energy that the QP makes least is there a number that no tau changes, so all q(tau) lie where a
+!> convex function is no larger than that, in one bounded set. The q of least energy goes continuously with its bounds. A
+!> continuous map of a bounded convex set of bounds into itself has a fixed point (Brouwer). Between two bounds
+!>
+!>     |p(tau_1) - p(tau_2)| <= L |tau_1 - tau_2|,     so that     |image_1 - image_2| <= nu |S_rho| L |tau_1 - tau_2|,
+!>
+!> L being the greatest rate at which pressure follows friction in any set of states. Where nu |S_rho| L < 1 the map contracts: one
+!> fixed point, and the error falls at least by that factor at each step. L comes from the coupling C_nt of tangential and normal
+!> forces (atrito_contraction estimates it); without any the first image is the fixed point. With a larger nu there may be several
+!> fixed points, or the loop may go round between sets of states, which it notices (find_cycle).
+!>
 !> Source: E. B. Pires and P. Providencia e Costa (1991); L. T. Campos, J. T. Oden and N. Kikuchi, Comput. Methods Appl. Mech. Eng.
 !> 34 (1982) 821-845, for the problem with the bound frozen.
 module atrito_picard_loop

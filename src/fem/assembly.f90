@@ -113,6 +113,15 @@ contains
    end subroutine assemble_body
 
    !> Equations and stiffnesses of elements, in their order. Equal ones that follow one another have one stiffness in common.
+   !>
+   !>     1. equations of each element
+   !>     2. each is compared with the last different one before it, in chunks side by side (compare_chunks)
+   !>     3. where many differ, but few by more than the grain, near ones are taken as equal (look_for_near)
+   !>     4. matrices are numbered through all chunks, and each is computed once (compute_matrices)
+   !>
+   !> Equal elements have one matrix to the last bit: the first one's, so that equal fronts are equal for whoever compares numbers.
+   !> A block of n equal elements costs n comparisons and one integration. What is not equal to the element before is not looked
+   !> for farther back: meshes whose elements come in mixed order have more matrices than they need, and no other harm.
    subroutine collect_elements(fem, elements, store, grain)
       type(fem_t), intent(in) :: fem               !< elements, sections and equations are read
       integer(ip), intent(in) :: elements(:)       !< of one body
@@ -189,6 +198,10 @@ contains
 
    !> Counts the different stiffnesses of a chunk: an element that has the form of the one before takes its number. The first is
    !> compared with the one that `before` names.
+   !>
+   !> A chunk may begin in the middle of a run of equal elements. With the guess that the run before it ended with the first
+   !> element of all, right in a regular mesh, no chunk is done twice; a chunk whose guess was wrong in a way that matters is done
+   !> again. In the end every number is what one thread alone would have given.
    pure subroutine compare_chunk(fem, elements, grain, i_chunk, chunk, number)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: elements(:), i_chunk

@@ -96,6 +96,17 @@ contains
    end function strain_rows
 
    !> Adds what a Gauss point gives to the upper triangle.
+   !>
+   !> With lambda and G times the weight of the point, and theta_a = g1_a + h_a, which u1 of node a adds to the dilatation:
+   !>
+   !>     (u1, u1)   lambda theta_a theta_b + G (2 g1_a g1_b + 2 h_a h_b + g2_a g2_b)
+   !>     (u2, u1)   lambda g2_a theta_b    + G g1_a g2_b
+   !>     (u1, u2)   lambda theta_a g2_b    + G g2_a g1_b
+   !>     (u2, u2)   lambda g2_a g2_b       + G (2 g2_a g2_b + g1_a g1_b)
+   !>
+   !> from the work lambda theta^2 + 2 G (err^2 + ezz^2 + ett^2) + G (2 erz)^2. A motion along the axis, u2 the same at all nodes,
+   !> has no strain, since the g2 add up to zero; u1 the same at all nodes has the hoop strain, so a ring has that one rigid motion
+   !> alone.
    pure subroutine add_point(n, rows, lambda, shear, k)
       integer(ip), intent(in) :: n                 !< nodes
       type(strain_rows_t), intent(in) :: rows      !< strains at the point, and its weight

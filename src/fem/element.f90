@@ -94,6 +94,16 @@ contains
    end subroutine element_stiffness
 
    !> The integrals over the element of ga gb', a < b.
+   !>
+   !>     nodes       points     degree of ga gb' in xi and in eta     reduced
+   !>     4           2 x 2      2                                     1
+   !>     8, 9        3 x 3      4                                     2 x 2 of eight nodes
+   !>     3           1          0
+   !>     6           3          2, of both together
+   !>
+   !> The degrees are those of parallelograms and straight triangles, where det(J) is constant: full rules are exact for them. In
+   !> other elements ga gb' is a quotient. For all shapes every rule has the integral of ga exactly, since ga det(J) is a
+   !> polynomial that it reaches: a uniform stress has its exact nodal forces in distorted elements, too (patch test).
    pure subroutine integrate_products(n, is_reduced, x, products)
       integer(ip), intent(in) :: n
       logical, intent(in) :: is_reduced
@@ -259,6 +269,11 @@ contains
 
    !> The work of the mean dilatation (T. J. R. Hughes, Int. J. Numer. Methods Eng. 15, 1980, for the plane: half of it in either
    !> direction; e33 stays 0, and s33 = mu (s11 + s22)).
+   !>
+   !>     theta_m = sum_a m_a . u_a  in place of  theta = sum_a ga . u_a:     (lambda + G) A m_a m_b' t,     m_a the mean of ga
+   !>
+   !> As mu goes to 1/2 lambda grows without bound; theta = 0 at four points, with two dofs an element in a large mesh, would lock
+   !> it.
    pure subroutine add_mean_dilatation(x, state, bulk, k, thickness)
       real(wp), intent(in) :: x(2, MOST_NODES)       !< of four nodes [L]
       integer(ip), intent(in) :: state             !< place in STATES

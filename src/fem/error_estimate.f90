@@ -90,6 +90,14 @@ contains
       if (relative_error(energies) > 0.0_wp) shares = 100*sqrt(squares/(energies%solution + energies%error))
    end function share_errors
 
+   !> For each element, by the points of a rule:
+   !>
+   !>     s       D B u, less what the temperature takes
+   !>     d       sum_k N_k s*_k - s, s*_k the recovered stresses of its nodes
+   !>     sums    of volume s C s, of volume d C d, and of volume max(D11, D22) (eps |u|)^2 |dxi/dx|^2, the round-off
+   !>
+   !> In rings s33 adds its own terms (add_hoop). The sums of a chunk of elements are added up by themselves and the chunks then in
+   !> their order, so the numbers do not depend on how many threads there are.
    pure subroutine measure_chunk(fem, u, field, per_unit, rules, chunk, energies, square)
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: u(:, :)

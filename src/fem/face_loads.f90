@@ -16,6 +16,12 @@ module atrito_face_loads
 contains
 
    !> Forces [F] of a traction of the same size and direction along the face.
+   !>
+   !>     f_a = int N_a traction h |dx/dt| dt
+   !>
+   !> The length |dx/dt| of a curved side is the root of a polynomial, which no Gauss rule has exactly. So the side is cut into
+   !> panels of five points each, whose error falls with the tenth power of their length. On straight sides with the middle node in
+   !> the middle |dx/dt| is constant, and the points are exact.
    pure subroutine traction_load(x, traction, thickness, state, f, places)
       real(wp), intent(in) :: x(:, :)              !< the face's nodes in the order of face_nodes [L], (2, 2 or 3)
       real(wp), intent(in) :: traction(2)          !< [F/L^2]
@@ -65,6 +71,14 @@ contains
    end subroutine hydrostatic_load
 
    !> The ends of a face, and between them the places where a function of it is 0.
+   !>
+   !> value(t) = mean + half t + bend t^2 through the three nodes at t = -1, 1 and 0. Of the two roots
+   !>
+   !>     r = -(half + sign(half) sqrt(half^2 - 4 bend mean))/2,     t1 = mean/r,     t2 = r/bend,
+   !>
+   !> neither takes the difference of two near numbers, and each quotient is formed only where it is not far outside of the face: a
+   !> straight face, bend = 0, has t1 alone. Between two cuts the value keeps its sign, so the pressure is a polynomial on each
+   !> panel.
    pure subroutine cut_face(value, cuts, n)
       real(wp), intent(in) :: value(:)             !< at the nodes of the face: first, last, middle
       real(wp), intent(out) :: cuts(4)             !< in [-1,1], rising

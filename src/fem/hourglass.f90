@@ -21,6 +21,11 @@ module atrito_hourglass
 contains
 
    !> The element (the user's number) of a body of one element, whose supports leave its hourglass free; 0: there is none.
+   !>
+   !> The displacements that strain none of the four points are four: two translations, a rotation, and the hourglass. Of those,
+   !> the ones that leave all held dofs at rest are the null space of their rows there, of the dimension 4 - rank; of the three
+   !> rigid motions alone it is 3 - rank of their rows. Where both ranks are the same there is one motion more that no support
+   !> feels, and it is no rigid one. A second element beside it would share no hourglass, so only bodies of one element are asked.
    integer(ip) function free_hourglass(fem, body) result(element)
       type(fem_t), intent(in) :: fem   !< the body's elements and equations are read
       type(body_t), intent(in) :: body !< one of fem's

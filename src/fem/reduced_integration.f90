@@ -23,6 +23,14 @@ module atrito_reduced_integration
 contains
 
    !> K_ab = shape(a) shape(b) amount for the 2 x 2 blocks of nodes a, b.
+   !>
+   !> From the strains at the head of this module: s11 = E' h,1 q1 and s22 = E' h,2 q2 work on e11 and e22, so that
+   !>
+   !>     s11 e11 + s22 e22 = E' (h,1^2 q1^2 - 2 m h,1 h,2 q1 q2 + h,2^2 q2^2),     E' = 1/c11,   m = -c12/c11
+   !>
+   !> with the compliance c of the plane state. Integrated over the element that is q'[ h11 -m h12 ; -m h12 h22 ] q E' t; turned
+   !> from the axes of the element to x1, x2 it is `amount`. The four points that h_ij are summed over see xi eta, which the middle
+   !> does not.
    pure subroutine hourglass_stiffness(x, section, state, shape, amount)
       real(wp), intent(in) :: x(2, 4)              !< less those of the first node [L]
       type(elastic_t), intent(in) :: section       !< elastic constants and thickness

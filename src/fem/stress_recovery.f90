@@ -59,6 +59,14 @@ module atrito_stress_recovery
 contains
 
    !> Recovers the stresses of a displacement field.
+   !>
+   !>     1. zones and patches (build_patches)
+   !>     2. stresses of u at the best points of all elements (sample_stresses)
+   !>     3. at each node with a patch the polynomial through the samples round it, and its value there (fit_chunk)
+   !>     4. the others take the mean of what the best patches at hand have at their place (borrow_stresses)
+   !>     5. in rings once more for the hoop stress, which goes the same way as if it were a component in the plane
+   !>
+   !> All patches are small: some 4 to 18 samples for 3 or 6 terms, so it takes a time in proportion to the number of elements.
    subroutine recover_stress_field(fem, u, field)
       type(fem_t), intent(in) :: fem               !< mesh, sections and temperatures are read
       real(wp), intent(in) :: u(:, :)              !< (2, n_nodes) [L]
@@ -281,6 +289,11 @@ contains
 
    !> Gives the nodes without a patch of their own the mean of the best patches at hand. Most of them, the middles of sides and
    !> elements, find patches of rank 1, which are the same from all their elements; the few others ask all of theirs.
+   !>
+   !> Rank 1 are the patches at the ends of the node's own side, and for the middle of an element those of its corners; the next
+   !> ones are those of corners beside, then across (RANK_OF). A node inside of a side belongs to two elements with the same
+   !> corners at its ends, so one of them, its owner, can answer. Only where rank 1 is not at hand, on the outline, may its
+   !> elements know different patches, and all are asked.
    subroutine borrow_stresses(mesh, work, stress)
       type(mesh_t), intent(in) :: mesh
       type(recovery_t), intent(in) :: work

@@ -14,6 +14,11 @@ module atrito_tapered
 contains
 
    !> Means over the volume of the gradients of the shape functions: theta_m = sum(mean*u) [1/L].
+   !>
+   !>     m_a = (1/V) int h grad N_a dA,     V = int h dA
+   !>
+   !> det(J) grad N_a is a polynomial, and so is h times it: the rule of the stiffness has both integrals exactly. With h = 1 four
+   !> nodes have the means of mean_gradients.
    pure subroutine tapered_means(x, thickness, mean, volume)
       real(wp), intent(in) :: x(:, :)              !< (2, n) less those of the first node [L]
       real(wp), intent(in) :: thickness(:)         !< of the nodes [L]

@@ -20,6 +20,10 @@ module atrito_balance_groups
 contains
 
    !> Groups in the order of their first motions.
+   !>
+   !> Motions and points are the members of sets that are joined: the motions of a body; each point with the motions that its rows
+   !> see; points one of whose pressure is in the friction bound of the other. What is joined in the end is a group. A body that
+   !> supports hold has no motion, so it joins nothing: a wall on its foundation is one group, two walls on one foundation are two.
    pure subroutine find_groups(rows, line, groups)
       type(motion_rows_t), intent(in) :: rows       !< G, and the body of each motion
       type(contact_line_t), intent(in) :: line      !< laws and averages of its points are read

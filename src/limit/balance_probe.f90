@@ -31,6 +31,12 @@ contains
 
    !> Asks the certificate at all times of the history that matter. status: STATUS_DECK, which is told by a message, where the
    !> averages take more memory than there is.
+   !>
+   !>     1. the scene of a step without factors: points, rows, loads
+   !>     2. at each time at which loads may be hardest (load_breakpoints) the certificate (ask_moment)
+   !>     3. FALLS at one of them is the answer, with the largest excess; without any, UNDECIDED at one of them is; else STANDS
+   !>
+   !> The answer is about forces alone: STANDS says that some balance the loads. Whether a scene comes to have them takes a run.
    subroutine probe_balance(model, answer, excess, status, collapse)
       type(model_t), intent(in), target :: model    !< as read, refined if that was asked
       integer, intent(out) :: answer                !< STANDS: forces balance the loads at all times; FALLS at some; or UNDECIDED

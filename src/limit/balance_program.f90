@@ -59,6 +59,18 @@ module atrito_balance_program
 contains
 
    !> The programme of the motions with a row, and of the points that touch them.
+   !>
+   !>     columns                         entries in the balance         in bounds of friction       cost
+   !>     friction with a bound, twice    T_j/S and -T_j/S               1                           0
+   !>     bilateral row, twice            N_j/S and -N_j/S               none                        0
+   !>     edges of a cone, two            (N_j +- nu T_j)/S              none                        0
+   !>     other pressures                 N_k/S                          -w_j nu_j W_jk/w_k          0
+   !>     remainders of a motion, two     1 and -1                       none                        1
+   !>
+   !>     rows       balance = h/S,   friction of point j of either sign <= w_j nu_j (what known pressures give)
+   !>
+   !> A point with friction of its own pressure alone is a cone, and needs no row: in walls with local friction all points are.
+   !> With least_largest a row y+ + y- <= z for each motion is added, and z has the cost in the place of the remainders.
    subroutine build_balance_program(rows, line, wanted, row_of_motion, scale, least_largest, balance)
       type(motion_rows_t), intent(in) :: rows         !< G, and the work of the loads on each motion
       type(contact_line_t), intent(in) :: line        !< points, weights, laws and averages are read

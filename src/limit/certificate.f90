@@ -57,6 +57,14 @@ module atrito_certificate
 contains
 
    !> Judges all groups. IMPOSSIBLE: one of them has a motion that proves it, that of the greatest excess over its loads is given.
+   !>
+   !>     1. groups of bodies that touch: a force or a motion of one group has no part in another one (find_groups)
+   !>     2. of each group one linear programme, whose solution tries to be forces in balance, and whose duals to be a motion that
+   !>        proves that there are none (judge_group)
+   !>     3. POSSIBLE where all groups have forces; IMPOSSIBLE where one has a motion; else UNDECIDED
+   !>
+   !> By duality of linear programmes one of the two answers exists always. Near the limit both may drown in round-off: then none
+   !> is given.
    subroutine prove_balance(rows, line, certificate, counts)
       type(motion_rows_t), intent(in) :: rows         !< G, and the work of the loads on each motion
       type(contact_line_t), intent(in) :: line        !< points, weights, laws and averages are read
@@ -95,6 +103,14 @@ contains
 
    !> Sizes of forces differ from body to body by any factor. The first pass measures all by the largest load of the group, the next
    !> ones each motion by the forces that the pass before found on it.
+   !>
+   !>     pass 1     S_i = the largest load of the group, for all motions
+   !>     pass 2     S_i = sum of the sizes of loads and contact forces on motion i, with the forces of pass 1
+   !>     pass 3     the same with the forces of pass 2
+   !>
+   !> The programme makes sum |remainder_i|/S_i least and knows its tolerance beside 1. With one S for all, a light body among
+   !> heavy ones has remainders that are nothing to it. So passes go on while neither forces nor motion are good enough for the
+   !> checks. Behind a proof a simpler motion is asked for, which is easier to tell (least_largest).
    subroutine judge_group(rows, line, member, touched, certificate)
       type(motion_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
@@ -180,6 +196,12 @@ contains
 
    !> How far loads can go from those of `rows` towards others: the largest share s of the way with G'q = h + s (h' - h) for some
    !> forces that the contact can take. One linear programme, that of the balance with s as one more column and without remainders.
+   !>
+   !>     maximise s     with   G' q - s (h' - h) = h,   0 <= s <= 1,   q such that the contact can take it
+   !>
+   !> If shares s1 < s2 can be balanced, by q1 and q2, all between can, by the forces between, as the conditions on q are linear.
+   !> So the largest share is where the balance ends on the way from h to h', and one programme tells what otherwise takes a
+   !> search.
    subroutine find_largest_share(rows, line, other, share, found)
       type(motion_rows_t), intent(in) :: rows    !< G and h
       type(contact_line_t), intent(in) :: line   !< points, weights, laws and averages are read
@@ -274,6 +296,13 @@ contains
 
    !> How much more the loads work on a motion than any admissible forces can take. proven: by far more than round-off, and than all
    !> forces could take that are MANY_TIMES as large as those on the bodies, at the points where round-off lets v resist them.
+   !>
+   !>     excess   = h'v - (what known pressures take by friction)
+   !>     resisted = N_k v + (1/w_k) sum_j w_j nu_j W_jk |T_j v|  at each point, above zero by round-off alone if v is a proof
+   !>     taken    = sum of resisted times the size of the forces on the bodies there, the lesser of two
+   !>
+   !> proven where excess > CLEAR of the work of all loads, and > MANY_TIMES taken. A bilateral row may pull and push, so |N_k v|
+   !> counts.
    subroutine motion_excess(rows, line, body_force, v, excess, proven)
       type(motion_rows_t), intent(in) :: rows    !< G, and the work of the loads on each motion
       type(contact_line_t), intent(in) :: line   !< points, weights, laws and averages are read
@@ -329,6 +358,10 @@ contains
    end subroutine friction_work
 
    !> Whether forces are admissible and leave nothing on the motions of some bodies, but for round-off of what is added up.
+   !>
+   !>     p >= 0,     |q_t| <= w tau(p),     |(h - G'q)_i| <= IN_BALANCE (sizes on motion i) + OF_BODY (largest on its body)
+   !>
+   !> with the averages and laws of the line itself. Whatever the solver of linear programmes said, only forces that pass count.
    function forces_balance(rows, line, q, member) result(balanced)
       type(motion_rows_t), intent(in) :: rows    !< G, and the work of the loads on each motion
       type(contact_line_t), intent(in) :: line   !< points, weights, laws and averages are read

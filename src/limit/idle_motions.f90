@@ -38,6 +38,17 @@ contains
    !> Takes the least of the idle motions. solution%inner%undetermined: one of them, the simplest, or not allocated where there
    !> is none; groups of many motions have what their form of the contact system found. Where a motion were idle but for what the
    !> digits of the deck make of the loads, that is taken out of data%f, and the increment is to be solved again.
+   !>
+   !>     1. rows that hold: closed, sticking or bilateral, with a force or a bound above zero (is_holding)
+   !>     2. bodies joined by such rows are a group (join_motions), whose idle motions are the null space of its rows (find_idle)
+   !>     3. loads, and then forces, that are no more than the digits of the deck make of others are taken out (doubt_loads,
+   !>        doubt_small_forces): 2 once more, or the increment once more
+   !>     4. closed points without a force count as open, sticking ones without a bound as without friction
+   !>     5. of all displacements u + V s the ones nearest to those of the increment before (take_least)
+   !>     6. after a long way, what its rounding has put off in the rows that hold (close_rows)
+   !>
+   !> 4 to 6 leave all forces as they are, since idle motions work with none of them. They choose which of the many displacements
+   !> with these forces is told, the same one whatever the form of the contact system and its solver.
    subroutine settle_idle_motions(data, u, before, solution, again)
       type(scene_data_t), intent(inout) :: data           !< of the increment; its loads may change
       real(wp), intent(in) :: u(:, :)                     !< (2, n_nodes) without rigid motions [L]

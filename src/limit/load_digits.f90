@@ -126,6 +126,9 @@ contains
 
    !> Takes work h on the motions of the bodies out of the loads: of all forces with that work the least, Z (Z'Z)^-1 h. The loads of
    !> the increment are no sum of the bases of its step any more; the next increment has its own.
+   !>
+   !> Z'(f - Z a) = h_old - h gives Z'Z a = h, a system of order three at the most for each body. Among all changes of the nodal
+   !> forces with this work the one along Z is the shortest, sum |df|^2 least, so no node is loaded more than it must.
    subroutine take_out(data, work)
       type(scene_data_t), intent(inout) :: data     !< of the increment; its loads change
       real(wp), intent(in) :: work(:)               !< (k) [F]

@@ -40,6 +40,15 @@ contains
 
    !> What the motion of a certificate is: which bodies move and how, what slides and opens, and what the loads, friction and gaps
    !> do on it. Lifts that the loads do not drive are taken out of it first.
+   !>
+   !>     1. rates of all points; what a unit of pressure at each can hold by friction (friction_work)
+   !>     2. which pairs slide or open, and which points are closed but for the lift (look_at_points)
+   !>     3. v~ = v without the lift (remove_lift); v itself where the loads drive the lift, too
+   !>     4. bodies by their speed, and whether they move as one (list_bodies, compare_bodies)
+   !>     5. what the loads work on v~, over its length or its angle: a force or a moment; friction holds that less the excess
+   !>
+   !> For a block on a slope 5 gives the driving force W sin(a), the most that friction holds, nu W cos(a), and the rest as what is
+   !> too little.
    subroutine describe_motion(fem, rows, line, motions, certificate, mechanism, work_at_end)
       type(fem_t), intent(in) :: fem                   !< bodies with their motions, and the mesh
       type(contact_rows_t), intent(in) :: rows         !< directions and nodes of its rows are read

@@ -26,6 +26,14 @@ module atrito_motion_polish
 contains
 
    !> Motions whose scale is zero stay as they are.
+   !>
+   !> Let c_i be the conditions (set_up_conditions) and S the scales. The least change d that makes all of them hold, c_i (v - d) =
+   !> 0, is sought in the work of the forces on each motion,
+   !>
+   !>     minimise sum_k (S_k d_k)^2     with   c_i d = c_i v,
+   !>
+   !> by the shortest least squares solution for S d, each condition scaled to length one. A light body among heavy ones then moves
+   !> by what is little for it. Dependent conditions count once.
    subroutine polish_motion(rows, line, scale, v)
       type(motion_rows_t), intent(in) :: rows    !< G
       type(contact_line_t), intent(in) :: line   !< weights, laws and averages of its points

@@ -87,6 +87,16 @@ contains
    end subroutine begin_search
 
    !> What to ask next, and of which value. STEP_DONE: nothing, search%found tells what came of it.
+   !>
+   !>     1. both ends: balance, then a solution of what can be balanced (look_at_ends)
+   !>     2. the balance between them, until its interval is as wide as allowed (narrow_balance)
+   !>     3. solutions at SHARES of the way to the last value that can be balanced, each next to the one before (follow_curve)
+   !>     4. where some of these have none, the last value that stands, by strides (narrow_solutions)
+   !>
+   !> What is asked next follows from the values looked at, the widths of the last intervals and the stride; there is no other
+   !> place in the search. So a value that turns out otherwise than expected, a FALLS among values to be solved, sends it back to 2
+   !> by itself. Each question of 2 narrows the interval or ends it, 3 has a fixed list of values, and strides of 4 only get
+   !> shorter.
    pure subroutine next_step(search, x, step)
       type(search_t), intent(inout) :: search !< strides and `found` may change
       real(wp), intent(out) :: x              !< the value; of no use where the step is STEP_DONE

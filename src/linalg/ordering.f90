@@ -182,6 +182,10 @@ contains
 
    !> A node from which the component has many layers (George and Liu): from the last layer take the node of least degree and
    !> look back, as long as that makes more layers.
+   !>
+   !> Of a strip the walk from any node ends at one of its ends, the walk from there at the other one: two or three walks do, each
+   !> in time linear in the edges of the component. The number of layers rises with every repetition and is at most the number of
+   !> nodes, so the loop ends. That no pair of nodes is farther apart is not proved, nor needed.
    pure subroutine find_peripheral_node(graph, node, trial, root)
       type(graph_t), intent(in) :: graph
       integer(ip), intent(in) :: node

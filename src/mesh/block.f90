@@ -11,6 +11,10 @@ contains
 
    !> Lines 0..1 of one direction with n elements: equal, or each longer than the one before by a constant factor such that
    !> the last is `grade` times the first; of both halves from the ends on, such that the middle is `grade` times the ends.
+   !>
+   !> The element lengths are 1, r, r^2, ... r^(n - 1), over their sum, with r = grade^(1/(n - 1)). Of halves the exponent of
+   !> element i is min(i - 1, n - i), the same from both ends, and r = grade^(1/((n - 1)/2)) with the quotient rounded down. The
+   !> second half is the mirror of the first to the last bit, so a block that is symmetric has a symmetric mesh.
    pure function graded_lines(n, grade, of_halves) result(t)
       integer(ip), intent(in) :: n        !< elements, >= 1
       real(wp), intent(in) :: grade       !< last over first element length, > 0

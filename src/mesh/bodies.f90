@@ -276,6 +276,11 @@ contains
 
    !> Reduces the columns of a basis: its space is the same, and each vector has an entry of 1 where the others have 0, the first
    !> such entries as far up as may be.
+   !>
+   !> Gauss and Jordan by columns, row by row from the top: of the columns that have no row yet the one with the largest entry
+   !> takes it, is scaled to 1 there, and is taken off all others. Two translations and a rotation come out as (1, 0, 0), (0, 1, 0)
+   !> and (0, 0, 1) even if the decomposition had mixed them, so a body is said to move along x1, not along a slope and about a
+   !> place somewhere.
    pure subroutine reduce_columns(basis, round_off)
       real(wp), intent(inout) :: basis(:, :)        !< (entries, vectors)
       real(wp), intent(in) :: round_off             !< smaller entries are none

@@ -129,6 +129,12 @@ contains
    end function slack_of
 
    !> All pieces of the line, however far it goes, and the crossings that they make.
+   !>
+   !>     1. heights of the nodes of each element: all on one side, most elements have nothing of the line
+   !>     2. nodes on both sides: the line parts the element, from its first to its last change of sign (span_of_split)
+   !>     3. none beyond the line on one side: sides that lie on it, and corners shared with the other side (look_beside)
+   !>     4. pieces of one body and kind that touch make a crossing (join_pieces)
+   !>     5. of each crossing how much lies between the two points of the line
    pure subroutine find_crossings(mesh, around, of_element, line, pieces, crossings)
       type(mesh_t), intent(in) :: mesh                           !< nodes and elements are read
       type(node_elements_t), intent(in) :: around                !< elements round each node of mesh
@@ -255,6 +261,10 @@ contains
    end subroutine add_piece
 
    !> Pieces of one kind and body that touch make one crossing.
+   !>
+   !> The pieces are gone through by where they begin. Of each body and kind one crossing is open: a piece that begins before its
+   !> end, or within the slack of an element behind it, makes it longer; one that begins farther off opens the next. n log n for n
+   !> pieces.
    pure subroutine join_pieces(mesh, of_element, pieces, crossings)
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: of_element(:)

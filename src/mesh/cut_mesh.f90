@@ -230,6 +230,11 @@ contains
    end subroutine sort_place
 
    !> New nodes: on each edge from its first node on, then inside each element row by row.
+   !>
+   !> A place is kept with the edge that it lies on, as its distance from where the edge begins, or inside its element, as row and
+   !> column. Of the two elements at an edge the first lists the places there; both find the same numbers later, since the keys are
+   !> whole numbers and sorted (append_keys). So a node on an edge is made once, and no coordinates are compared. Nodes of the deck
+   !> are not made again.
    subroutine number_nodes(mesh, pieces, refinement, edge_key, inner_key)
       type(mesh_t), intent(in) :: mesh
       type(pieces_t), intent(in) :: pieces

@@ -125,6 +125,14 @@ contains
    end subroutine add_cell
 
    !> Cuts some leaves into four, and those that have to be cut with them. Leaves that are too small stay.
+   !>
+   !>     1. the leaves that are asked for: a quadrilateral into four, a triangle into two and each of these into two
+   !>     2. all leaves: one with a side cut twice, or with more cut sides than its pieces can do with, is cut, too; slender
+   !>        ones get the middle of the side opposite
+   !>     3. 2 again, until a pass over all leaves changes nothing
+   !>
+   !> What is cut in 2 is larger than the neighbour for which it is cut, so cuts spread to coarser leaves and die out; cells have a
+   !> least size besides, so there are finitely many, and the passes end.
    pure subroutine cut_leaves(leaves, trees)
       integer(ip), intent(in) :: leaves(:)          !< cells that are to be cut
       type(element_trees_t), intent(inout) :: trees !< new cells stand behind the others

@@ -68,6 +68,21 @@ module atrito_dissection
 contains
 
    !> Orders the wanted nodes of some elements.
+   !>
+   !>     1. measure         middle and extent of each element, in the axes of the guide
+   !>     2. split           a set of elements in two, by the guide's halves or a line (choose_cut); refined where asked for
+   !>     3. take_separator  the free nodes that elements of both parts have
+   !>     4. the same with each part, until a set has few nodes (LEAF); these are a part of the order as they come (take_rest)
+   !>     5. add_part        order: lower part, upper part, separator
+   !>
+   !> Why the separator comes last. To eliminate a node couples all its neighbours that are still there. No element joins a node of
+   !> the lower part with one of the upper part, so nothing of the one couples to the other until the separator is reached, whose
+   !> nodes are few: sqrt(n) of n in a square. Its full matrix takes some n^(3/2) operations; two levels further down there are
+   !> four separators half as long, which take half of that together. All cuts of a level look at each element once, and there are
+   !> log2(n) levels.
+   !>
+   !> Threads. A set knows how many free nodes it has before it is cut, so each part knows its places in the order, and parts are
+   !> cut at the same time. The order is the same for any number of threads.
    subroutine dissect(elements, nodes, n_nodes_of, x, wanted, guide, parts)
       integer(ip), intent(in) :: elements(:)                !< which
       integer(ip), intent(in), target :: nodes(:, :)        !< (most nodes, all elements)
@@ -236,6 +251,11 @@ contains
    end subroutine sort_by_side
 
    !> Where to cut: across the longer side, in the middle, or where that leaves too few on one side, at the median of a sample.
+   !>
+   !> The side counts in elements: the extent of the set over the mean extent of an element, both ways. The middle comes first,
+   !> since sets of one shape are then cut alike and have equal fronts. It is taken where each part has BALANCED of the elements at
+   !> least; else the median of a sample is, which in a graded mesh is where the elements are. `margin` moves the line off the
+   !> middles of elements that lie on it, so that rounding of the coordinates does not put some of a row on either side.
    pure subroutine choose_cut(element, centre, extent, along, place)
       integer(ip), intent(in), contiguous :: element(:)
       real(wp), intent(in), contiguous :: centre(:, :), extent(:, :)
@@ -306,6 +326,9 @@ contains
    end function sample_median
 
    !> Takes the free nodes that elements of both parts have.
+   !>
+   !> Each free node of the upper part is marked with the number of the cut; a node of the lower part that has the mark is in both.
+   !> The number is another one in each cut, so marks are never taken off, and the time is that of the nodes of the set's elements.
    subroutine take_separator(first, middle, last, number, work, separator, n_upper)
       integer(ip), intent(in) :: first, middle, last
       integer(lp), intent(in) :: number

@@ -31,6 +31,13 @@ module atrito_element_clusters
 contains
 
    !> Joins elements to clusters of 2**n_rounds at most.
+   !>
+   !> A round halves the number of clusters, nearly: what finds no partner stays alone. The work of METIS goes with the number of
+   !> vertices, so three rounds save most of it, and what they give away is little: elements of a cluster mostly share sides, and a
+   !> cut through the middle of a cluster is at most an element away from one round it.
+   !>
+   !> An element counts for a neighbour as many nodes as both have, each of them for each element of the neighbour, so a side in
+   !> common (two nodes) counts more than a corner, and a neighbour round two sides more than one at a single side.
    subroutine join_elements(lists, elements, n_rounds, clusters)
       type(corner_lists_t), intent(in) :: lists !< corners of these elements at least
       integer(ip), intent(in) :: elements(:)    !< distinct ones

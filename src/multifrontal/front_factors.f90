@@ -117,6 +117,16 @@ contains
    end subroutine change_waiting
 
    !> Factors all classes. The last one, of the retained equations, is assembled only: its lower triangle, packed, is its update.
+   !>
+   !> With P_c for the places of a child's border in the front of its parent, and A_e for the elements that the front takes,
+   !>
+   !>     F = sum_e A_e + sum_c P_c U_c P_c',        [ F_pp  F_bp' ; F_bp  F_bb ]  ->  L_p, L_b and U = F_bb - L_b L_b'.
+   !>
+   !> Children come before parents. By induction U is the Schur complement of all that was eliminated in the subtree, as its
+   !> ancestors see it, so the L of all fronts together is the Cholesky factor of the matrix in the order of the dissection, whose
+   !> entries are 0 wherever no front has them. Nothing but dense matrices is ever worked on.
+   !>
+   !> A class is factored once for all fronts that are equal. In a regular mesh of n elements there are some log n classes, not n.
    subroutine factor_fronts(fronts, store, diagonal, enough)
       type(fronts_t), intent(inout) :: fronts    !< planned; gets its factors
       type(element_store_t), intent(in) :: store !< element matrices, their values included
@@ -206,6 +216,9 @@ contains
    end function held_bytes
 
    !> Operations of the elimination of a front.
+   !>
+   !> Of n pivots in a front with m rows more, the pivot that leaves j others and the border takes (j + m)^2 operations, lower
+   !> triangle alone: the sum over j from 0 to n - 1 is about n^3/3 + m n^2 + m^2 n.
    pure elemental real(wp) function front_flops(order, n_pivots) result(flops)
       integer(ip), intent(in) :: order, n_pivots
       real(wp) :: n, m
@@ -216,6 +229,14 @@ contains
    end function front_flops
 
    !> Cuts the classes into tasks: those that are new in a subtree of little work follow one another.
+   !>
+   !>     class     1  2  3  4 | 5  6  7 | 8 | 9 | 10          | between tasks
+   !>     wave      1            1         2   2   3
+   !>
+   !> Classes are numbered as they were met in postorder. Those that follow each other and are new in the same small subtree are
+   !> one task; each class above the subtrees is a task by itself. A small subtree may need a class that an earlier one has made:
+   !> then its task waits for the next wave (find_waves). Within a wave no task needs another one. The large fronts near the root
+   !> come few at a time, so their tiles are shared out besides (atrito_front).
    pure subroutine make_tasks(fronts, tasks, work)
       type(fronts_t), intent(in) :: fronts
       type(task_t), allocatable, intent(out) :: tasks(:)

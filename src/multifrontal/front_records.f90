@@ -59,6 +59,9 @@ module atrito_front_records
 contains
 
    !> Sets up the tree of an elimination.
+   !>
+   !> A supernode without a parent is joined to the last one, that of the retained equations, so that there is one tree, even where
+   !> a mesh is in several pieces. Children are listed from the last supernode down, each put first: the list of a parent rises.
    subroutine plant_tree(elimination, n, n_retained, store, tree)
       type(elimination_t), intent(in) :: elimination !< order of equations, and supernodes
       integer(ip), intent(in) :: n, n_retained       !< equations; the last ones of them, which are not eliminated

@@ -76,6 +76,13 @@ contains
       end do
    end subroutine forward_subtree
 
+   !>     1. front = [ x of the pivots ; 0 ]
+   !>     2. the vectors that the children have left are the last ones on the stack, one child after the other; each is added
+   !>        to the front at the places that the record tells
+   !>     3. x_p <- L_p^-1 x_p;  the border gets -L_b x_p  (eliminate_load)
+   !>     4. x takes x_p; the border goes on the stack, for the parent
+   !>
+   !> The last supernode has no pivots: its front is what the retained equations get, f_c - K_ci K_ii^-1 f_i.
    subroutine forward_supernode(fronts, p, order, n_pivots, by_threads, x, stack)
       type(fronts_t), intent(in) :: fronts
       integer(ip), intent(in) :: p, order, n_pivots
@@ -152,6 +159,9 @@ contains
       end do
    end subroutine backward_subtree
 
+   !> The mirror of forward_supernode: the parent has left x_b on the stack, x_p <- L_p^-T (x_p - L_b' x_b) follows, and each child
+   !> gets the entries of [x_p ; x_b] that are its border. The first child is put on the stack first, so that the last one, which
+   !> comes next on the way down, is on top.
    subroutine backward_supernode(fronts, p, order, n_pivots, by_threads, x, stack)
       type(fronts_t), intent(in) :: fronts
       integer(ip), intent(in) :: p, order, n_pivots

@@ -81,6 +81,12 @@ contains
    end subroutine build_front_tree
 
    !> The largest subtrees of at most a share of the work. The last supernode belongs to none.
+   !>
+   !> Supernodes are in postorder: those of a subtree stand one behind the other, just before its root, so a subtree is a range.
+   !> Work is summed up from children to parents in one pass, since parents come later; then a supernode is the root of a subtree
+   !> of the list if its own work is not above the share and that of its parent is. So no subtree of the list lies in another one,
+   !> and what is in none of them are the few large supernodes near the root. The cut depends on the tree alone, not on the number
+   !> of threads.
    pure subroutine cut_subtrees(parent, n_descendants, share, work, subtrees)
       integer(ip), intent(in) :: parent(:), n_descendants(:)   !< (n_supernodes)
       real(wp), intent(in) :: share                            !< of all work, 0 .. 1; 0: no subtree

@@ -343,6 +343,12 @@ contains
 
    !> With the displacements less those of the first node, whose part in the forces is none: a stiffness is free of forces under
    !> translation, and what cancels is left out. (Along a radius it is not.)
+   !>
+   !> Of a packed lower triangle column j has a_jj and the a_ij below it, which stand for a_ji, too:
+   !>
+   !>     y_j <- y_j + a_jj x_j + sum_i a_ij x_i,     y_i <- y_i + a_ij x_j     (i > j)
+   !>
+   !> n^2 multiplications and additions with half as many numbers from memory.
    pure subroutine add_element_product(n, equations, packed, translates, x, y)
       integer(ip), intent(in) :: n, equations(n)
       real(wp), intent(in) :: packed(*)

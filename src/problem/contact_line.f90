@@ -230,6 +230,14 @@ contains
    !> Bounds and compliances of the tangential forces for a friction bound: -w tau <= q <= w tau, D = c(tau)/w. Points
    !> that had none begin stuck; points that have none now take no part. The bound HUGE_REAL is none at all: stuck
    !> whatever the force.
+   !>
+   !>     tau                    bound         D                  state
+   !>     HUGE_REAL              none          0                  FREE: it sticks, whatever the force
+   !>     0                      0             0                  FROZEN: no friction
+   !>     else                   w tau         c(tau)/w           as it is; a point that was FROZEN begins stuck
+   !>
+   !> c is the compliance of sticking: 0 or 1/k of LOCAL, eps/tau of NONLOCAL. States stay from one bound to the next, so the QP of
+   !> the next bound begins where that of the last one ended.
    pure subroutine set_friction_bounds(line, problem, tau, bounds, state)
       type(contact_line_t), intent(in) :: line
       type(bound_qp_t), intent(in) :: problem       !< of which the shape counts

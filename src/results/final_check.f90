@@ -141,6 +141,11 @@ contains
 
    !> Z'(f - B'q) of every rigid motion, relative to the forces on the body; the worst. A body without load rests: what is round-off
    !> of the forces on those that touch it, directly or by others without load, counts as none.
+   !>
+   !>     |Z_j'(f - B'q)| / sum over the nodes of (|f| + |B'q|)      the largest of all motions j of all bodies
+   !>
+   !> Z_j is the motion at the free dofs. What cancels in the sum is thereby measured by what it is the sum of. Bodies without a
+   !> load of their own have forces of the others' round-off alone, which is why it is spread to them first.
    real(wp) function check_balance(fem, f, contact, rows, had) result(worst)
       type(fem_t), intent(in) :: fem                 !< its bodies, and their rigid motions
       real(wp), intent(in) :: f(:, :), contact(:, :) !< (2, n_nodes) [F]
@@ -195,6 +200,9 @@ contains
    end subroutine add_up_body
 
    !> The largest value of all bodies that touch, directly or by others without load, for each without load.
+   !>
+   !> A round goes over all rows and hands the larger value on; values only grow, and are among those there were at first, so it
+   !> ends after as many rounds as there are bodies in a chain, at the most.
    subroutine spread_to_touching(fem, rows, is_loaded, values)
       type(fem_t), intent(in) :: fem
       type(contact_rows_t), intent(in) :: rows
@@ -244,6 +252,17 @@ contains
 
    !> Signs, complementarity, friction bound and direction at every point, with the final displacements. Sets results%law_holds
    !> and, where a converged solution breaks it, the verdict.
+   !>
+   !> With p, t, gap g and slip u_T as the results have them, tau = nu S_rho(p) of these p, and s the slip beyond the rest slip:
+   !>
+   !>     places      g and u_T are those of the displacements                                     judge_place
+   !>     normal      p >= 0;  g + delta p = 0 where p > 0;  g >= 0 where p = 0                    judge_normal
+   !>     friction    |t| <= tau;  t = tau sign(s) where |s| is beyond what sticking lets;
+   !>                 else t is what the law gives for s                                           judge_friction
+   !>     bilateral   row . u = value + compliance q                                               check_bilateral_rows
+   !>
+   !> each within what round-off leaves open (atrito_contact_scales). States and residuals of the solver are not looked at, only
+   !> fields, displacements and laws. So a point that was closed by mistake, or slips the wrong way, shows here.
    subroutine check_law(rows, line, tolerance, results, of_node, growth, had, condition, round_off)
       type(contact_rows_t), intent(in) :: rows   !< gaps and slips of the points
       type(contact_line_t), intent(in) :: line   !< laws, deltas and weights of the points

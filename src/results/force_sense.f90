@@ -160,6 +160,15 @@ contains
 
    !> What the forces of a pair upon both sides leave as a force or a moment: they should add up to nothing. None of a rigid master,
    !> on which no force is put.
+   !>
+   !> The force F_j of a point acts with c_jk F_j at the nodes k of its row, the slave's c adding up to 1 and the master's to -1.
+   !> So
+   !>
+   !>     sum_j (sum_k c_jk) F_j = 0,     M = sum_j (sum_k c_jk (x_k - middle)) x F_j + couples
+   !>
+   !> where the first is zero but for round-off. M is zero where the force acts at one place on both sides: x_s - x_m along F. It
+   !> is not where sides are apart along the tangent, or shear acts over a gap; what turning rows put at the nodes besides is
+   !> counted (couples).
    pure subroutine sides_differ(points, x, contact, off, moment, rows, before)
       type(contact_points_t), intent(in) :: points !< of the pair
       real(wp), intent(in) :: x(:, :)            !< (2, n_nodes) [L]

@@ -273,6 +273,17 @@ contains
    end function curves_apart
 
    !> The longest stretch in which the pressure has more extremes, no more than NEAR points apart, than any edge makes.
+   !>
+   !> A zigzag of the pressure is followed from point to point along neighbours: `extreme` is the last high or low so far, `way`
+   !> which of them is looked for.
+   !>
+   !>     further the same way                     the extreme moves on
+   !>     back by least_swing or more              a swing: the extreme is confirmed, the other way is looked for
+   !>     more than NEAR points since the last     a field that varies, no zigzag: the count begins anew
+   !>     no neighbour                             the stretch ends
+   !>
+   !> A smooth pressure has one swing up and one down, singular edges some more. Only more than MOST_SWINGS in one stretch are
+   !> told.
    pure subroutine find_alternation(contact, found)
       type(contact_result_t), intent(in) :: contact !< of a pair
       type(alternation_t), intent(out) :: found     !< swings 0: there is none

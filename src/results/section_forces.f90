@@ -50,6 +50,12 @@ contains
       end do
    end subroutine sum_cuts
 
+   !> F is what the part ahead does to the part behind. With n the normal of the cut, from behind to ahead, a its direction and M
+   !> about the middle of the section:
+   !>
+   !>     N = n . F  (tension > 0),     V = a . F,     M = sum (x - middle) x F
+   !>
+   !> The sizes of all terms are kept beside, since a moment may be the small difference of large ones.
    subroutine sum_cut(data, loads, u, own, cut, row)
       type(scene_data_t), intent(in) :: data
       type(element_load_t), intent(in) :: loads

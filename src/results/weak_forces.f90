@@ -27,6 +27,11 @@ contains
 
    !> Whether the residual of every node is small beside the forces of its body and pairs. Its round-off is asked for where
    !> it is not.
+   !>
+   !>     |residual| - round-off <= FORCE_TOLERANCE (largest force of the body; of the pair, or the own load)
+   !>
+   !> First without round-off, which is enough for most scenes and costs nothing; only where that fails is sum |K||du| formed, du
+   !> being what a backward stable solution leaves of u, and of a motion of the body that u is a small part of.
    function weak_parts_hold(fem, u, f, contact, held, residual, sizes) result(holds)
       type(fem_t), intent(in) :: fem             !< its bodies are judged
       real(wp), intent(in) :: u(:, :)            !< u_e, without rigid motions, (2, n_nodes) [L]

@@ -57,6 +57,16 @@ contains
    end subroutine remember_slips
 
    !> What counts is the friction bound, not the pressure: the nonlocal law has one at open points beside closed ones, too.
+   !>
+   !>     state of the point                rest slip s0 after the increment      dissipated
+   !>     without a bound, or no friction   u_T                                   0
+   !>     slips                             u_T - c t                             w mean(t) (change of s0)
+   !>     sticks                            as before                             0
+   !>
+   !> The work of friction is the integral of w t ds0. A point that slid before, the same way, is taken to go from its last shear
+   !> to this one in a straight line, so the mean is that of both. A point that began to slide had come to its bound before s0
+   !> changed, so t is the friction of all of its way. With a law that has a memory t and the change of s0 have one sign: nothing
+   !> is given back.
    pure subroutine remember_point(line, tau, c, j, k, memory, dissipation)
       type(contact_line_t), intent(in) :: line
       real(wp), intent(in) :: tau                    !< friction bound that the increment was solved with [F/L^2]

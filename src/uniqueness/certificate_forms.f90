@@ -68,6 +68,10 @@ contains
    end subroutine given_way_forms
 
    !> Factors T. failed: /= 0 where H is not positive definite.
+   !>
+   !> H = [ alpha S  b X' ; b X  1 ] has the unit matrix in its lower corner, so it is positive definite where what is left of it
+   !> without v is, T = alpha S - b^2 X'X. With S = A_nn - X'X and alpha + b^2 = ((alpha + 1)/2)^2 that is what is formed here: one
+   !> factor of the order of the normal forces, n^3/3 operations, for each alpha.
    subroutine factor_pencil(form, pencil, failed)
       type(friction_form_t), intent(in) :: form
       type(pencil_t), intent(inout) :: pencil     !< with alpha

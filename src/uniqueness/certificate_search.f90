@@ -46,6 +46,10 @@ module atrito_certificate_search
 contains
 
    !> The largest s found for which the matrix is positive definite, at most `most`; 0 where none was, A itself being singular.
+   !>
+   !> The ratios come from a few steps of Lanczos and may be too low, the coefficient too high. So the matrix at the best place is
+   !> built and factored. A Cholesky factor that comes to its end, with MARGIN for its own round-off, is a proof; where it does
+   !> not, the coefficient goes down, by more each time. What is returned has been proved, whatever the search was worth.
    subroutine certified_factor(form, forms, most, factor, pencil)
       type(friction_form_t), intent(in) :: form
       type(forms_t), intent(in) :: forms
@@ -74,6 +78,16 @@ contains
    end subroutine certified_factor
 
    !> The alpha and gamma with the least of the largest ratios, as far as a few rounds come.
+   !>
+   !> Each round, at (alpha, gamma) = (e^x, e^y):
+   !>
+   !>     1. the Cholesky factor of H; where there is none alpha is too far from 1, and x goes back towards 0, which is A itself
+   !>     2. the largest ratio there, and its vector z, by some steps of Lanczos from the z of the round before
+   !>     3. the cut of z; the best place so far
+   !>     4. from that the place where the greatest of all cuts is least, within reach; reach doubles where all of it was used
+   !>
+   !> It ends where the ratio is low enough for the coefficient that is asked for, or where the cuts, which are lower bounds of the
+   !> ratio, say that no place within reach is better by more than two per cent.
    subroutine search(form, forms, most, best)
       type(friction_form_t), intent(in) :: form
       type(forms_t), intent(in) :: forms
@@ -155,6 +169,12 @@ contains
    end function first_gamma
 
    !> The cut of a vector z, of which the ratio at one place is known.
+   !>
+   !> With x = X z_n and v = L' z_t + x the two halves of z'A z are
+   !>
+   !>     c = z_n'A_nn z_n + x'(v - x),     d = (v - x)'v,     so that z'H z = alpha c + d.
+   !>
+   !> z'R z is known from the ratio, lambda (alpha c + d). One of its two terms is computed, the other one is what is left.
    type(cut_t) function cut_of(form, forms, place, z) result(cut)
       type(friction_form_t), intent(in) :: form
       type(forms_t), intent(in) :: forms

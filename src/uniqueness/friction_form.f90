@@ -32,6 +32,14 @@ module atrito_friction_form
 contains
 
    !> Builds A and W on the forces that leave all bodies in balance. why_not: '', or why there is no such form.
+   !>
+   !>     1. motions along the contact: none may be there, or friction alone holds a body, and the certificates do not apply
+   !>     2. A = C + diag(delta/w, 0), of all forces
+   !>     3. W, what a normal force adds to the bounds of friction (take_bounds)
+   !>     4. forces that bodies cannot take, as they would move them, out of A and W (take_kernel)
+   !>     5. the tangential forces out of A: L, X and X'X (take_tangential)
+   !>
+   !> m^2 operations for each motion in 4, some m^3/3 in 5; all certificates of the line then use the same form.
    subroutine build_form(problem, line, form, why_not)
       type(bound_qp_t), intent(in) :: problem     !< C and G
       type(contact_line_t), intent(in) :: line    !< points, laws, average S_rho

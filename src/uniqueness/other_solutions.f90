@@ -32,6 +32,11 @@ module atrito_other_solutions
 contains
 
    !> Solutions that are neither the first nor each other, at most MOST_OTHERS. None of them has been checked by anything else.
+   !>
+   !> Newton's method takes at most MOST_STEPS from each start, every one an LU of the active unknowns. Pressures at the start are
+   !> all alike and above zero, so every point has a friction bound and may have any state. Most starts lead to the solution that
+   !> is known, or to none; a trial that converged is compared with all that were found. It is kept with its state, for its index
+   !> and its check.
    subroutine find_others(problem, line, controls, first, starts, others)
       type(bound_qp_t), intent(in) :: problem       !< the QP: C, G, g0, h
       type(contact_line_t), intent(in) :: line      !< points, laws, average S_rho

@@ -30,6 +30,11 @@ module atrito_state_index
 contains
 
    !> 1 or -1; 0 where a point stands on the edge of its state, or the matrix is singular but for rounding.
+   !>
+   !>     1. points on the edge of their state: no index
+   !>     2. the state was met before, or a certificate covers nu: its sign
+   !>     3. one Cholesky factor proves that det M has no zero from 0 to nu: 1 (is_regular, then another alpha by certify_way)
+   !>     4. det M itself: slipping forces are eliminated, whose rows are sparse; the rest by LU with its exchanges of rows
    integer(ip) function index_of_solution(problem, line, solution, is_known, certificate) result(index_of)
       type(bound_qp_t), intent(in) :: problem     !< C and G
       type(contact_line_t), intent(in) :: line    !< points, laws, average S_rho
