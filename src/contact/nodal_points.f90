@@ -235,6 +235,7 @@ contains
       s = 0.0_wp
       do i = 1, slave%n
          rule = nodal_rule(mesh, slave%element(i), slave%face(i))
+         face = revolved_face_t()
          if (STATES(mesh%state(slave%element(i)))%has_hoop .or. IS_TAPERED(mesh%state(slave%element(i)))) then
             face = revolve_face(mesh, mesh%state(slave%element(i)), thickness(slave%element(i)), rule)
          end if

@@ -16,7 +16,8 @@ module atrito_multifrontal
    use atrito_metis, only: has_metis, metis_version, metis_trouble
    use atrito_variable_matrix, only: variable_matrix_t, create_variable_matrix, set_variable_element, factor_variable_matrix, &
                                      solve_variable_matrix, solve_at_variable, take_signs, kept_values, reduce_variable, &
-                                     expand_variable, add_fixed_product, fixed_diagonal, expect_variable_factors, variable_matrix_bytes
+                                     expand_variable, add_fixed_product, fixed_diagonal, expect_variable_factors, &
+                                     variable_matrix_bytes
    implicit none (type, external)
    public
 

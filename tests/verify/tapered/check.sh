@@ -160,4 +160,8 @@ awk '/^#/ { print; next } $2 > 100 { printf "%d %d %s %s %s %.17g\n", $1, $2 - 1
 below 'first instance' "$(off first.txt)" 5e-7
 below 'turned instance' "$(off second.txt)" 5e-7
 grep -Eq '  M +STANDARD +[0-9]+ +of nodes$' instances/instances.lst || complain 'listing'
+
+# faces of both kinds of thickness, one after the other on one slave
+run 0 "$here/mixed.inp" mixed --quiet
+all_near 'pressure of both halves' mixed/contact.tab pressure 10 1e-12
 finish
