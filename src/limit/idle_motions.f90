@@ -354,8 +354,9 @@ contains
       idle = found(:, :n)
    end subroutine find_idle
 
-   !> Whether A may have an eigenvalue that is none. It has not where A - s 1 has a Cholesky factor, s being CLEARLY_HELD of the norm
-   !> of A, far more than the rounding of the factor. That takes a thirtieth of the time of the eigenvectors, and few groups are idle.
+   !> Whether A may have an eigenvalue that is none. It has not where A - s 1 has a Cholesky factor, s being CLEARLY_HELD of the
+   !> norm of A, far more than the rounding of the factor. That takes a thirtieth of the time of the eigenvectors, and few groups
+   !> are idle.
    logical function may_be_singular(a)
       real(wp), intent(in) :: a(:, :)
       real(wp), parameter :: CLEARLY_HELD = 1.0e-10_wp
