@@ -100,7 +100,7 @@ contains
 
       !> A force that is less than what the digits of the deck make of the largest one on its body, and without which a motion were
       !> idle, is none: a roller that stands on one node does not turn until the next one touches because its load is off by the
-      !> last digit. With friction the bound at its neighbours may hang on it, and it stays, where it is more than round-off.
+      !> last digit. With friction the bound at its neighbours may hang on it, and it stays.
       subroutine doubt_small_forces()
          real(wp) :: largest(rows%n)
          logical :: is_sure(size(holds))
@@ -111,10 +111,9 @@ contains
          is_sure = holds
          do i = 1, rows%n
             associate (j => data%line%point(i))
-               if (.not. holds(i) .or. rows%first(i + 1) == rows%first(i) .or. data%line%normal(j) /= i) cycle
+               if (.not. holds(i) .or. rows%first(i + 1) == rows%first(i) .or. data%line%law(j)%kind /= FRICTION_NONE) cycle
                if (j > data%line%n - data%line%n_bilateral) cycle
-               is_sure(i) = abs(solution%state%q(i)) > merge(dropped_part(data, i), NO_FORCE, &
-                                                             data%line%law(j)%kind == FRICTION_NONE)*largest(i)
+               is_sure(i) = abs(solution%state%q(i)) > dropped_part(data, i)*largest(i)
             end associate
          end do
          if (all(is_sure .eqv. holds)) return

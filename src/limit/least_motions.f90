@@ -161,9 +161,10 @@ contains
       call meet_exactly(a(:, seen), bound(seen), wanted, s)
    end function within_conditions
 
-   !> The same point in finitely many steps: x = s - s0 is the least with -a_i'x >= h_i = a_i's0 - b_i. With E of the columns (-a_i, h_i)
-   !> and u >= 0 the one of the least |E u - e|, e = (0, .., 0, 1), it is x = -r/r_last, r = E u - e (C. L. Lawson, R. J. Hanson,
-   !> Solving Least Squares Problems, 1974, chapter 23). s stays where rounding finds no end.
+   !> The same point in finitely many steps: the way from s0 is the least x with -a_i . x >= a_i . s0 - b_i for each condition. Let
+   !> E have these numbers of a condition in a column, and u >= 0 be the one for which |E u - e| is least, e being the last unit
+   !> vector: then x is the upper part of r = E u - e over minus the last number of r (C. L. Lawson, R. J. Hanson, Solving Least
+   !> Squares Problems, 1974, chapter 23). s stays where rounding finds no end.
    subroutine meet_exactly(a, bound, wanted, s)
       real(wp), intent(in) :: a(:, :)               !< (motions, rows)
       real(wp), intent(in) :: bound(:)              !< (rows)
