@@ -35,6 +35,7 @@ contains
 
       allocate (results%bounded(size(data%quantities)))
       call check_hypotheses(data, results%u, why_not)
+      if (data%is_distributed) why_not = 'a scene over several processes: --share none'
       if (.not. allocated(why_not)) call find_primal(data, acting, solution, results, both, primal, balanced, why_not)
       do i = 1, size(data%quantities)
          associate (bound => results%bounded(i))

@@ -40,7 +40,9 @@ contains
       type(results_t), intent(inout) :: results             !< checked; get error_bound
       type(step_t) :: acting
 
-      if (.not. (is_wanted(data, results) .and. results%converged .and. results%law_holds)) return
+      if (.not. (results%converged .and. results%law_holds)) return
+      if (data%is_distributed .and. allocated(data%quantities)) call bound_quantities(data, acting, solution, results)
+      if (.not. is_wanted(data, results)) return
       call start_phase('prove')
       call report_progress(data%reporter, 'bound of the error')
       call act_at(data%model, data%step, moment_t(results%step_time, results%time), acting)
