@@ -26,17 +26,19 @@ module atrito_error_bound
    use atrito_element_table, only: CORNERS_OF, DEGREE_OF, MOST_NODES
    use atrito_equilibrium_stress, only: sum_stresses
    use atrito_exchanged_tractions, only: exchange
+   use atrito_glued_ties, only: glue_ties
    use atrito_internal_forces, only: internal_forces
    use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: mesh_t
    use atrito_mesh_sides, only: chains_t, list_chains, list_sides, mesh_sides_t
    use atrito_model, only: model_t, step_t
+   use atrito_packed_energies, only: outlines_t
    use atrito_problem, only: problem_t
    use atrito_proof_forecast, only: work_of_bound, work_of_run
    use atrito_proof_loads, only: proof_loads_t, take_loads
    use atrito_results, only: error_bound_t, results_t
    use atrito_side_misfit, only: add_misfit
    use atrito_side_tractions, only: equilibrate_sides, side_length, traction_of
-   use atrito_star_sweeps, only: outlines_t
    use atrito_thermal_loads, only: add_thermal_of, elastic_energy
    implicit none (type, external)
    private
@@ -106,29 +108,51 @@ contains
    subroutine sum_terms(model, acting, problem, solution, keeps, classes, exchanged, results, terms)
       type(model_t), intent(in) :: model
       type(step_t), intent(in) :: acting
-      class(problem_t), intent(in) :: problem
+      class(problem_t), intent(in), target :: problem
       type(contact_solution_t), intent(in) :: solution
       logical, intent(in) :: keeps                  !< the resultants
       type(element_classes_t), intent(in) :: classes
       real(wp), allocatable, intent(inout) :: exchanged(:, :)
-      type(results_t), intent(in) :: results
+      type(results_t), intent(in), target :: results
       type(terms_t), intent(inout) :: terms
       type(proof_loads_t) :: loads
       type(mesh_sides_t) :: sides
       type(side_cuts_t) :: cuts
       type(chains_t) :: chains
       type(segment_t), allocatable :: segments(:)
-      real(wp), allocatable :: force(:, :, :)
+      real(wp), allocatable :: force(:, :, :), joints(:)
+      type(fem_t), target :: glued                  ! tied bodies as one
+      type(mesh_t), target :: mesh_glued
+      logical, allocatable, target :: held_glued(:, :)
+      real(wp), allocatable, target :: reaction_glued(:, :)
+      type(fem_t), pointer :: fem
+      logical, pointer :: held(:, :)
+      real(wp), pointer :: reaction(:, :)
       integer(ip) :: degree
 
-      call balanced_segments(model, problem, solution, keeps, segments, terms%why_not)
+      fem => problem%fem
+      held => problem%held
+      reaction => results%reaction
+      if (problem%rows%n_bilateral > 0) then
+         glued = problem%fem
+         mesh_glued = problem%fem%mesh
+         glued%mesh => mesh_glued
+         held_glued = problem%held
+         reaction_glued = results%reaction
+         fem => glued
+         held => held_glued
+         reaction => reaction_glued
+         call glue_ties(model, mesh_glued, sides, held_glued, reaction_glued, terms%why_not)
+      else
+         call list_sides(fem%mesh, sides)
+      end if
+      if (.not. allocated(terms%why_not)) call balanced_segments(model, problem, solution, keeps, segments, joints, terms%why_not)
       if (.not. allocated(terms%why_not)) then
-         degree = maxval(DEGREE_OF(problem%fem%mesh%shape(:problem%fem%mesh%n_elements)))
-         call list_sides(problem%fem%mesh, sides)
-         call take_loads(model, acting, problem%fem, sides, degree, problem%held, results%reaction, loads, terms%why_not)
+         degree = maxval(DEGREE_OF(fem%mesh%shape(:fem%mesh%n_elements)))
+         call take_loads(model, acting, fem, sides, degree, held, reaction, loads, terms%why_not)
       end if
       if (.not. (allocated(terms%why_not) .or. allocated(exchanged))) then
-         call exchange(problem, solution, segments, exchanged, terms%why_not)
+         call exchange(problem, solution, segments, joints, exchanged, terms%why_not)
       end if
       if (.not. allocated(terms%why_not)) call take_contact(problem%fem, sides, segments, degree, loads, cuts, terms%why_not)
       if (.not. allocated(terms%why_not)) then
@@ -136,9 +160,9 @@ contains
          if (terms%work > terms%most_work) terms%why_not = 'it takes longer than the run: --proof on'
       end if
       if (.not. allocated(terms%why_not)) then
-         call list_chains(problem%fem%mesh, sides, chains)
+         call list_chains(fem%mesh, sides, chains)
          call take_elements(problem%fem, classes, sides, results%u + exchanged, loads, force)
-         call equilibrate_sides(problem%fem%mesh, sides, chains, force, loads%known, loads%traction, terms%residual)
+         call equilibrate_sides(fem%mesh, sides, chains, force, loads%known, loads%traction, terms%residual)
          block
             type(outlines_t) :: found                ! large: they go before the sides are looked at
 
@@ -150,7 +174,7 @@ contains
          if (any(terms%share < 0.0_wp)) terms%why_not = 'a side of an element faces too many others'
       end if
       if (.not. allocated(terms%why_not)) then
-         call add_misfit(problem%fem, problem%held, segments, results%u, terms%share, terms%of_law, terms%why_not)
+         call add_misfit(fem, held, segments, results%u, terms%share, terms%of_law, terms%why_not)
       end if
    end subroutine sum_terms
 
@@ -205,7 +229,6 @@ contains
 
       associate (fem => problem%fem)
          if (any(fem%sections%thickness <= 0.0_wp)) why_not = 'no thickness'
-         if (problem%rows%n_bilateral > 0) why_not = 'ties, equations, springs or inclined supports'
          if (fem%bodies%n_rigid > 0) why_not = 'rigid bodies'
          farthest = maxval(abs(u))
          if (farthest > LARGEST .or. (farthest > 0.0_wp .and. farthest < 1/LARGEST)) then
