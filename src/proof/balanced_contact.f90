@@ -121,13 +121,14 @@ contains
       do i = 1, size(segments, kind=ip)
          do end_of = 1, 2
             call approach_of(problem, segments(i), end_of, first, n_motions, motion, z)
-            force = 0.5_wp*segments(i)%length*segments(i)%thickness*([segments(i)%p(end_of), room_at(segments(i), end_of)]/unit)
+            force = 0.5_wp*segments(i)%length*segments(i)%thickness/unit* &
+                    [segments(i)%p(end_of), room_of(segments(i), end_of, with_friction)]
             call add_forces(force)
          end do
       end do
       do i = 1, size(joints, kind=ip)
          call approach_of_joint(problem, i, first, n_motions, motion, z)
-         call add_forces([weight_of(i), 0.0_wp])
+         call add_forces([weight_of(problem, i), 0.0_wp])
       end do
       most = maxval(solved)
       do m = 1, n                                   ! what no traction works on keeps what it has
@@ -144,7 +145,7 @@ contains
          do end_of = 1, 2
             call approach_of(problem, segments(i), end_of, first, n_motions, motion, z)
             factor = matmul(change(motion(:n_motions)), z(:n_motions, :))
-            associate (p => segments(i)%p(end_of), room => room_at(segments(i), end_of))
+            associate (p => segments(i)%p(end_of), room => room_of(segments(i), end_of, with_friction))
                if (p > 0.0_wp .and. .not. factor(1) > -1.0_wp) is_found = .false.
                if (room > 0.0_wp .and. .not. abs(factor(2)) <= 1.0_wp) is_found = .false.
                segments(i)%t(end_of) = segments(i)%t(end_of) + room*factor(2)
@@ -154,7 +155,7 @@ contains
       end do
       do i = 1, size(joints, kind=ip)
          call approach_of_joint(problem, i, first, n_motions, motion, z)
-         joints(i) = joints(i) + unit*weight_of(i)*dot_product(change(motion(:n_motions)), z(:n_motions, 1))
+         joints(i) = joints(i) + unit*weight_of(problem, i)*dot_product(change(motion(:n_motions)), z(:n_motions, 1))
       end do
       call work_on_motions(problem, joints, segments, first, left, size_of)
       is_found = is_found .and. all(abs(left) <= UNBALANCED*size_of)
@@ -173,20 +174,6 @@ contains
          end do
          call gram%add(number(motion(:n_motions)), part(:n_motions, :n_motions))
       end subroutine add_forces
-
-      real(wp) function weight_of(i)
-         integer(ip), intent(in) :: i               !< bilateral row
-
-         weight_of = RATHER*problem%line%weight(problem%rows%n - problem%rows%n_bilateral + i)
-      end function weight_of
-
-      real(wp) function room_at(segment, end_of)
-         type(segment_t), intent(in) :: segment
-         integer(ip), intent(in) :: end_of
-
-         room_at = 0.0_wp
-         if (with_friction) room_at = room_of(segment, end_of)
-      end function room_at
 
    end subroutine change_least
 
@@ -221,12 +208,14 @@ contains
       call close_profile(profile)
    end subroutine number_motions
 
-   !> What friction may be more at one end of a segment, in either direction [F/L^2].
-   pure real(wp) function room_of(segment, end_of)
+   !> What friction may be more at one end of a segment, in either direction, where it is to change [F/L^2].
+   pure real(wp) function room_of(segment, end_of, with_friction)
       type(segment_t), intent(in) :: segment
       integer(ip), intent(in) :: end_of
+      logical, intent(in) :: with_friction
 
-      room_of = max(segment%tau(end_of) - abs(segment%t(end_of)), 0.0_wp)
+      room_of = 0.0_wp
+      if (with_friction) room_of = max(segment%tau(end_of) - abs(segment%t(end_of)), 0.0_wp)
    end function room_of
 
    !> The approach of the sides by the motions of both bodies and what they slip by, where the hat of one end has its force: a third
@@ -259,6 +248,14 @@ contains
       end do
    end subroutine approach_of
 
+   !> How far the force of a bilateral row gives way where bodies are to balance [L^2].
+   pure real(wp) function weight_of(problem, i)
+      class(problem_t), intent(in) :: problem
+      integer(ip), intent(in) :: i                  !< row
+
+      weight_of = RATHER*problem%line%weight(problem%rows%n - problem%rows%n_bilateral + i)
+   end function weight_of
+
    !> The work on the motions of both bodies that the force of a bilateral row does.
    subroutine approach_of_joint(problem, i, first, n, motion, z)
       class(problem_t), intent(in) :: problem
@@ -284,7 +281,7 @@ contains
       end do
    end subroutine approach_of_joint
 
-   !> The work of loads, ties and tractions of contact on the rigid motions that supports leave, and the size of what it is a sum of.
+   !> The work of loads, ties and tractions of contact on the rigid motions that supports leave, and the size of what it sums up.
    subroutine work_on_motions(problem, joints, segments, first, work, size_of)
       class(problem_t), intent(in) :: problem
       real(wp), intent(in) :: joints(:)             !< (bilateral rows) [F]

@@ -19,9 +19,9 @@ module atrito_element_energy
    use atrito_airy_stress, only: macro_t, make_macro, piece_values, MOST_COEFFICIENTS, MOST_PIECES, MOST_UNKNOWNS
    use atrito_assembly, only: fem_t, form_t, take_form
    use atrito_dense, only: add_product
-   use atrito_element_places, only: is_affine, natural_place, take_gradients
    use atrito_element_table, only: MOST_NODES, SHAPES
    use atrito_kinds, only: ip, wp
+   use atrito_natural_places, only: is_affine, natural_place, take_gradients
    use atrito_plane_state, only: COMPONENTS, compliance_matrix, elasticity_matrix, thermal_stresses
    implicit none (type, external)
    private

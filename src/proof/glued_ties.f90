@@ -1,7 +1,7 @@
 !> Tied bodies as one: where nodes of both sides of a tie lie in the same places, they become one node.
 !>
-!> Displacements are then continuous across the tie everywhere, as those of the exact problem, and the side between the bodies is one
-!> within a body: the traction that it carries is looked for, of either sign, as that of any side between two elements.
+!> Displacements are then continuous across the tie everywhere, as those of the exact problem, and the side between the bodies is
+!> one within a body: the traction that it carries is looked for, of either sign, as that of any side between two elements.
 module atrito_glued_ties
    use atrito_bilateral_rows, only: bilateral_rows_t, ROW_TIE
    use atrito_kinds, only: ip, wp

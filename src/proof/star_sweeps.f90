@@ -31,7 +31,7 @@ module atrito_star_sweeps
       real(wp), allocatable :: sign_of(:, :)
       real(wp), allocatable :: factor(:, :)         !< (n_free, n_free)
       real(wp), allocatable :: h(:, :, :)           !< (numbers, numbers, elements) of outlines, columns of its own numbers
-      real(wp), allocatable :: z(:, :, :)           !< (numbers, 3, elements) by which the first three rows follow, where corner /= 1
+      real(wp), allocatable :: z(:, :, :)           !< (numbers, 3, elements) by which rows 1 to 3 follow, where corner /= 1
       real(wp), allocatable :: slope(:), step(:)    !< (n_free)
       logical, allocatable :: looks_first(:, :), looks_held(:) !< as is_first and is_held, of the star that is asked for
    end type star_t

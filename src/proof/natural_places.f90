@@ -1,5 +1,5 @@
 !> Places in an element by its own coordinates, and gradients there.
-module atrito_element_places
+module atrito_natural_places
    use atrito_element_table, only: MOST_NODES, SHAPES
    use atrito_kinds, only: ip, wp
    use atrito_shape_functions, only: shape_gradients, shape_values
@@ -116,4 +116,4 @@ contains
       if (.not. is_affine) is_affine = maxval(abs(x(:, 1) - x(:, 2) + x(:, 3) - x(:, 4))) <= 1.0e-12_wp*maxval(abs(x))
    end function is_affine
 
-end module atrito_element_places
+end module atrito_natural_places
