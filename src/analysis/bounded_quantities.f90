@@ -35,6 +35,7 @@ contains
 
       allocate (results%bounded(size(data%quantities)))
       call check_hypotheses(data, results%u, why_not)
+      if (data%rows%n_bilateral > 0) why_not = 'ties, equations, springs or inclined supports'
       if (data%is_distributed) why_not = 'a scene over several processes: --share none'
       if (.not. allocated(why_not)) call find_primal(data, acting, solution, results, both, primal, balanced, why_not)
       do i = 1, size(data%quantities)
@@ -65,8 +66,9 @@ contains
       type(segment_t), allocatable, intent(out) :: balanced(:) !< with the tractions and the friction bound of the proof
       character(len=:), allocatable, intent(inout) :: why_not
       real(wp), parameter :: NO_JUMP = 1.0e-9_wp
+      real(wp), allocatable :: no_joints(:)
 
-      call balanced_segments(data%model, data, solution, .true., primal%segments, why_not)
+      call balanced_segments(data%model, data, solution, .true., primal%segments, no_joints, why_not)
       if (allocated(why_not)) return
       balanced = primal%segments
       call find_joints(data, solution, primal%segments, both%joints, why_not)
@@ -81,7 +83,7 @@ contains
       call begin_common(data%fem, both)
       call take_loads(data%model, acting, data%fem, both%sides, both%degree, data%held, results%reaction, primal%loads, why_not)
       if (.not. (allocated(why_not) .or. allocated(data%exchanged))) then
-         call exchange(data, solution, primal%segments, data%exchanged, why_not)
+         call exchange(data, solution, primal%segments, no_joints, data%exchanged, why_not)
       end if
       if (.not. allocated(why_not)) call find_stress(both, primal%u + data%exchanged, primal, why_not)
    end subroutine find_primal

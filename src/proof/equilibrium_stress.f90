@@ -8,8 +8,9 @@ module atrito_equilibrium_stress
    use atrito_element_table, only: CORNERS_OF
    use atrito_kinds, only: ip, wp
    use atrito_mesh_sides, only: chains_t, mesh_sides_t
+   use atrito_packed_energies, only: outlines_t, pack_energy, packed_size
    use atrito_proof_loads, only: proof_loads_t
-   use atrito_star_sweeps, only: outlines_t, pack_energy, packed_size, sweep_stars
+   use atrito_star_sweeps, only: sweep_stars
    implicit none (type, external)
    private
    public :: sum_stresses, sum_again

@@ -26,18 +26,20 @@ module atrito_error_bound
    use atrito_element_table, only: CORNERS_OF, DEGREE_OF, MOST_NODES
    use atrito_equilibrium_stress, only: sum_stresses
    use atrito_exchanged_tractions, only: exchange
+   use atrito_glued_ties, only: glue_ties
    use atrito_internal_forces, only: internal_forces
    use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: mesh_t
    use atrito_mesh_sides, only: chains_t, list_chains, list_sides, mesh_sides_t
    use atrito_misfit_places, only: strip_places_t
    use atrito_model, only: model_t, step_t
+   use atrito_packed_energies, only: outlines_t
    use atrito_problem, only: problem_t
    use atrito_proof_forecast, only: work_of_bound, work_of_run
    use atrito_proof_loads, only: proof_loads_t, take_loads
    use atrito_results, only: error_bound_t, results_t
    use atrito_side_misfit, only: add_misfit
    use atrito_side_tractions, only: equilibrate_sides, side_length, traction_of
-   use atrito_star_sweeps, only: outlines_t
    use atrito_thermal_loads, only: add_thermal_of, elastic_energy
    implicit none (type, external)
    private
@@ -122,50 +124,72 @@ contains
    subroutine sum_terms(model, acting, problem, solution, keeps, exchanged, results, ground, terms)
       type(model_t), intent(in) :: model
       type(step_t), intent(in) :: acting
-      class(problem_t), intent(in) :: problem
+      class(problem_t), intent(in), target :: problem
       type(contact_solution_t), intent(in) :: solution
       logical, intent(in) :: keeps                  !< the resultants
       real(wp), allocatable, intent(inout) :: exchanged(:, :)
-      type(results_t), intent(in) :: results
+      type(results_t), intent(in), target :: results
       type(ground_t), intent(inout) :: ground       !< with the classes
       type(terms_t), intent(inout) :: terms
       type(proof_loads_t) :: loads
       type(side_cuts_t) :: cuts
       type(segment_t), allocatable :: segments(:)
-      real(wp), allocatable :: force(:, :, :)
+      real(wp), allocatable :: force(:, :, :), joints(:)
+      type(fem_t), target :: glued                  ! tied bodies as one
+      type(mesh_t), target :: mesh_glued
+      logical, allocatable, target :: held_glued(:, :)
+      real(wp), allocatable, target :: reaction_glued(:, :)
+      type(fem_t), pointer :: fem
+      logical, pointer :: held(:, :)
+      real(wp), pointer :: reaction(:, :)
       integer(ip) :: degree
 
-      associate (fem => problem%fem, classes => ground%classes, sides => ground%sides, chains => ground%chains)
-         call balanced_segments(model, problem, solution, keeps, segments, terms%why_not)
+      fem => problem%fem
+      held => problem%held
+      reaction => results%reaction
+      if (problem%rows%n_bilateral > 0) then
+         glued = problem%fem
+         mesh_glued = problem%fem%mesh
+         glued%mesh => mesh_glued
+         held_glued = problem%held
+         reaction_glued = results%reaction
+         fem => glued
+         held => held_glued
+         reaction => reaction_glued
+         call glue_ties(model, mesh_glued, ground%sides, held_glued, reaction_glued, terms%why_not)
+      else if (ground%sides%n == 0) then
+         call list_sides(fem%mesh, ground%sides)
+      end if
+      associate (classes => ground%classes, sides => ground%sides, chains => ground%chains)
+         if (.not. allocated(terms%why_not)) call balanced_segments(model, problem, solution, keeps, segments, joints, terms%why_not)
          if (.not. allocated(terms%why_not)) then
             degree = maxval(DEGREE_OF(fem%mesh%shape(:fem%mesh%n_elements)))
-            if (sides%n == 0) call list_sides(fem%mesh, sides)
-            call take_loads(model, acting, fem, sides, degree, problem%held, results%reaction, loads, terms%why_not)
+            call take_loads(model, acting, fem, sides, degree, held, reaction, loads, terms%why_not)
          end if
          if (.not. (allocated(terms%why_not) .or. allocated(exchanged))) then
-            call exchange(problem, solution, segments, exchanged, terms%why_not)
+            call exchange(problem, solution, segments, joints, exchanged, terms%why_not)
          end if
-         if (.not. allocated(terms%why_not)) call take_contact(fem, sides, segments, degree, loads, cuts, terms%why_not)
+         if (.not. allocated(terms%why_not)) call take_contact(problem%fem, sides, segments, degree, loads, cuts, terms%why_not)
          if (.not. allocated(terms%why_not)) then
-            terms%work = work_of_bound(fem, classes, sides, cuts)
+            terms%work = work_of_bound(problem%fem, classes, sides, cuts)
             if (terms%work > terms%most_work) terms%why_not = 'it takes longer than the run: --proof on'
          end if
          if (.not. allocated(terms%why_not)) then
             if (chains%n == 0) call list_chains(fem%mesh, sides, chains)
-            call take_elements(fem, classes, sides, results%u + exchanged, loads, force)
+            call take_elements(problem%fem, classes, sides, results%u + exchanged, loads, force)
             call equilibrate_sides(fem%mesh, sides, chains, force, loads%known, loads%traction, terms%residual)
             block
                type(outlines_t) :: found                ! large: they go before the sides are looked at
 
                deallocate (force)
-               call sum_stresses(fem, classes, sides, chains, loads, results%u, cuts, found, terms%residual)
+               call sum_stresses(problem%fem, classes, sides, chains, loads, results%u, cuts, found, terms%residual)
                terms%share = found%energy(found%place)
                if (terms%keeps_outlines) terms%outlines = found
             end block
             if (any(terms%share < 0.0_wp)) terms%why_not = 'a side of an element faces too many others'
          end if
          if (.not. allocated(terms%why_not)) then
-            call add_misfit(fem, problem%held, segments, results%u, ground%strip, terms%share, terms%of_law, terms%why_not)
+            call add_misfit(fem, held, segments, results%u, ground%strip, terms%share, terms%of_law, terms%why_not)
          end if
       end associate
    end subroutine sum_terms
@@ -221,7 +245,6 @@ contains
 
       associate (fem => problem%fem)
          if (any(fem%sections%thickness <= 0.0_wp)) why_not = 'no thickness'
-         if (problem%rows%n_bilateral > 0) why_not = 'ties, equations, springs or inclined supports'
          if (fem%bodies%n_rigid > 0) why_not = 'rigid bodies'
          farthest = maxval(abs(u))
          if (farthest > LARGEST .or. (farthest > 0.0_wp .and. farthest < 1/LARGEST)) then

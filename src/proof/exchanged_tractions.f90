@@ -5,7 +5,7 @@
 !> besides, which costs a solution with the factors that are there, and all else is a matter of given loads.
 module atrito_exchanged_tractions
    use atrito_assembly, only: fem_t
-   use atrito_balanced_contact, only: add_segments, balanced_segments
+   use atrito_balanced_contact, only: add_joints, add_segments, balanced_segments
    use atrito_bodies, only: bodies_t
    use atrito_condensed_body, only: condense_body, condensed_body_t, contact_response, expand_body
    use atrito_contact_segments, only: segment_t
@@ -32,17 +32,19 @@ contains
       type(condensed_body_t), intent(inout) :: bodies(:)
       real(wp), allocatable, intent(out) :: change(:, :)
       type(segment_t), allocatable :: segments(:)
+      real(wp), allocatable :: joints(:)
       character(len=:), allocatable :: why_not
 
-      call balanced_segments(model, problem, solution, keeps, segments, why_not)
-      if (.not. allocated(why_not)) call exchange(problem, solution, segments, change, why_not, bodies)
+      call balanced_segments(model, problem, solution, keeps, segments, joints, why_not)
+      if (.not. allocated(why_not)) call exchange(problem, solution, segments, joints, change, why_not, bodies)
    end subroutine exchange_with_factors
 
    !> By factors that are there, or that are made now. why_not: a body cannot be factored.
-   subroutine exchange(problem, solution, segments, change, why_not, bodies)
+   subroutine exchange(problem, solution, segments, joints, change, why_not, bodies)
       class(problem_t), intent(in) :: problem
       type(contact_solution_t), intent(in) :: solution
       type(segment_t), intent(in) :: segments(:)
+      real(wp), intent(in) :: joints(:)             !< (bilateral rows) forces of ties [F]
       real(wp), allocatable, intent(out) :: change(:, :) !< (2, n_nodes) [L]
       character(len=:), allocatable, intent(inout) :: why_not
       type(condensed_body_t), intent(inout), optional :: bodies(:)
@@ -56,6 +58,7 @@ contains
       allocate (change(2, size(problem%held, 2)), source=0.0_wp)
       if (size(segments) == 0) return
       force = contact_forces(problem%fem, problem%rows, problem%line, solution)
+      call add_joints(problem, joints, -1.0_wp, force)
       call add_segments(segments, force)
       fem = problem%fem
       do b = 1, fem%bodies%n

@@ -122,6 +122,31 @@ run 0 "$ex1" huge --set q=1e150 --set eps=4e146 --proof on
 no_bound huge 'displacements above 1e100'
 run 0 "$input/lessons/leaning-block.inp" leaning --proof on
 no_bound leaning 'no strain'
+
+# ties whose sides match: the block in two halves is the whole one; the columns are one under a uniform stress
+sed '/^\*CONTACT PAIR/{s/.*/*TIE, NAME=T/}; /^\*SURFACE INTERACTION/,/^0.5, 1e-3/d; /^UPPER-LEFT/d' "$here/column.inp" >tied.inp
+for nx in 3 5; do run 0 tied.inp "tied-$nx" --proof on --set nx=$nx; done
+near 'tied columns: certified' "$(summary tied-3 error_certified)" 1 0
+below 'tied columns' "$(summary tied-3 error_bound_percent)" 1.01e-7
+no_bound tied-5 'a tie whose sides do not match'
+for type in CPE3 CPE4 CPE8; do
+   sed "s/CPE4, ELSET=BODY, NX=4/$type, ELSET=BODY, NX=2/; s/^2., /1., /
+      s/^\*MATERIAL, NAME=M/*BLOCK, TYPE=$type, ELSET=REST, NX=2, NY=2\n1., 0.\n2., 0.\n2., 1.\n1., 1.\n&/
+      s/^\*SOLID SECTION, ELSET=BODY/*SOLID SECTION, ELSET=REST, MATERIAL=M\n1.\n&/
+      s/^\*BOUNDARY/*TIE, NAME=T\nREST-LEFT, BODY-RIGHT\n&/; s/^BODY-RIGHT, T/REST-RIGHT, T/; s/^BODY-TOP.*/&\nREST-TOP, P, 0.5/" "$here/clamped.inp" >halves.inp
+   run 0 halves.inp "halves-$type" --proof on --quiet
+   near "halves, $type: certified" "$(summary "halves-$type" error_certified)" 1 0
+   near "halves, $type" "$(summary "halves-$type" error_bound_percent)" "$(summary "clamped-$type" error_bound_percent)" \
+      "$(value "1e-2*$(summary "clamped-$type" error_bound_percent)")"
+done
+# on a support without friction, where each half alone could turn: the bound of the whole plate
+sed 's/, MERGE=OVER//; s/^\*BOUNDARY/*TIE, NAME=T\nSPAN-LEFT, OVER-RIGHT\n&/' "$ex1" >plate.inp
+run 0 plate.inp plate --set rho=0 --proof on --quiet
+near 'a plate in two: certified' "$(summary plate error_certified)" 1 0
+near 'a plate in two' "$(summary plate error_bound_percent)" "$(summary ex1-0 error_bound_percent)" 0.25
+sed 's/^\*BOUNDARY/*EQUATION\n2\n1, 1, 1., 2, 1, -1.\n&/' "$here/clamped.inp" >equation.inp
+run 0 equation.inp equation --proof on
+no_bound equation 'joints other than ties'
 # without being asked for, where it takes less than the rest of the run: by counts, the same on any machine
 sed 's/CPE4/CPE8/' "$input/lessons/arch.inp" >arch.inp
 run 0 arch.inp arch
