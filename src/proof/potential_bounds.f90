@@ -2,9 +2,9 @@
 !>
 !>     F(v) = |C eps(v)|^2/2 - f(v) + int psi_n(g) + psi_t(r),
 !>
-!> psi_n = max(g, 0)^2/(2 delta), psi_t = r^2/(2 c) up to the slip c tau and tau |r| - c tau^2/2 beyond, tau the friction bound of
-!> the run, c = eps/tau or 1/k. The exact solution has the least F, so F(u_h) is not less, if sides do not overlap or have delta. With
-!> a stress s^ in equilibrium with p^, t^, and psi* the conjugates,
+!> psi_n = max(g, 0)^2/(2 delta), psi_t = r^2/(2 c) up to the slip c tau and tau |r| - c tau^2/2 beyond, tau the friction bound
+!> of the run, c = eps/tau or 1/k. The exact solution has the least F, so F(u_h) is not less, if sides do not overlap or have delta.
+!> With a stress s^ in equilibrium with p^, t^, and psi* the conjugates,
 !>
 !>     F(u) >= |C eps(u_h)|^2/2 - f(u_h) - |s^ - C eps(u_h)|^2/2 - int psi_n*(p^) - p^ g + psi_t*(t^) - t^ r.       (1)
 module atrito_potential_bounds
