@@ -2,9 +2,9 @@
 !>
 !>     F(v) = |C eps(v)|^2/2 - f(v) + int psi_n(g) + psi_t(r),
 !>
-!> psi_n = max(g, 0)^2/(2 delta), psi_t = r^2/(2 c) up to the slip c tau and tau |r| - c tau^2/2 beyond, tau the friction bound of the
-!> run, c = eps/tau or 1/k. The exact solution has the least F, so F(u_h) is not less, if sides do not overlap or have delta. With
-!> a stress s^ in equilibrium with p^, t^, and psi* the conjugates,
+!> psi_n = max(g, 0)^2/(2 delta), psi_t = r^2/(2 c) up to the slip c tau and tau |r| - c tau^2/2 beyond, tau the friction bound
+!> of the run, c = eps/tau or 1/k. The exact solution has the least F, so F(u_h) is not less, if sides do not overlap or have delta.
+!> With a stress s^ in equilibrium with p^, t^, and psi* the conjugates,
 !>
 !>     F(u) >= |C eps(u_h)|^2/2 - f(u_h) - |s^ - C eps(u_h)|^2/2 - int psi_n*(p^) - p^ g + psi_t*(t^) - t^ r.       (1)
 module atrito_potential_bounds
@@ -93,9 +93,9 @@ contains
          end if
       end subroutine add_normal
 
-      !> Without slip at full friction psi_t = tau |r|. For eps t^2/(2 tau) 1/tau is taken as linear: not less.
+      !> Of eps t^2/(2 tau) what is not less: with 1/tau linear between the ends, or eps |t|/2 where tau ends.
       subroutine add_tangential()
-         real(wp) :: slip, t, tau, c, slip_of_full
+         real(wp) :: slip, t, tau, slip_of_full
 
          slip = slip_at(segment, u, at)
          t = between(segment%t, at)
@@ -106,15 +106,13 @@ contains
          else
             potential = potential + weight*tau*(abs(slip) - 0.5_wp*slip_of_full)
          end if
-         c = segment%compliance
-         if (segment%eps > 0.0_wp) then
-            if (minval(segment%tau) > 0.0_wp) then
-               c = c + segment%eps*between(1/segment%tau, at)
-            else
-               c = c + segment%eps/tau               ! |t| <= tau: where tau ends t^2/tau is not more than |t|
-            end if
+         conjugate = conjugate + weight*(0.5_wp*segment%compliance*t**2 - t*slip)
+         if (.not. segment%eps > 0.0_wp) return
+         if (minval(segment%tau) > 0.0_wp) then
+            conjugate = conjugate + weight*0.5_wp*segment%eps*between(1/segment%tau, at)*t**2
+         else
+            conjugate = conjugate + weight*0.5_wp*segment%eps*abs(t)
          end if
-         conjugate = conjugate + weight*(0.5_wp*c*t**2 - t*slip)
       end subroutine add_tangential
 
    end subroutine sum_segment
