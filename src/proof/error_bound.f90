@@ -161,7 +161,9 @@ contains
          call list_sides(fem%mesh, ground%sides)
       end if
       associate (classes => ground%classes, sides => ground%sides, chains => ground%chains)
-         if (.not. allocated(terms%why_not)) call balanced_segments(model, problem, solution, keeps, segments, joints, terms%why_not)
+         if (.not. allocated(terms%why_not)) then
+            call balanced_segments(model, problem, solution, keeps, segments, joints, terms%why_not)
+         end if
          if (.not. allocated(terms%why_not)) then
             degree = maxval(DEGREE_OF(fem%mesh%shape(:fem%mesh%n_elements)))
             call take_loads(model, acting, fem, sides, degree, held, reaction, loads, terms%why_not)

@@ -26,9 +26,9 @@ module atrito_quantity_bound
    use atrito_kinds, only: ip, wp
    use atrito_linear_quantity, only: quantity_bound_t
    use atrito_mesh_sides, only: chains_t, list_chains, list_sides, mesh_sides_t
+   use atrito_packed_energies, only: outlines_t
    use atrito_proof_loads, only: proof_loads_t
    use atrito_side_tractions, only: equilibrate_sides
-   use atrito_packed_energies, only: outlines_t
    implicit none (type, external)
    private
    public :: held_scene_t, common_t, begin_common, find_stress, bound_between, has_digits
