@@ -281,7 +281,7 @@ contains
                item = line_item(deck, deck%lines(card%first_line), k)
                units%names(k)%s = token_text(deck, item)
                if (scan(units%names(k)%s, NOT_OF_A_UNIT) > 0) call report_error(deck, item, 'E-NAME', &
-                                        'no name of a unit', expected='a name without any of '//NOT_OF_A_UNIT, keyword='UNITS')
+                                             'no name of a unit', expected='a name without any of '//NOT_OF_A_UNIT, keyword='UNITS')
                if (len(units%names(k)%s) == 0) deallocate (units%names(k)%s)
             end do
          end associate

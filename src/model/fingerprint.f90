@@ -343,7 +343,7 @@ contains
       type(digest_t), intent(inout) :: digest
       class(requested_t), intent(in) :: requested
 
-      call add_to(digest, [requested%nodes, requested%reactions, requested%stress, requested%contact])
+      call add_to(digest, [requested%nodes, requested%reactions, requested%stress, requested%contact, requested%principal])
       call add_allocated(digest, requested%node_u)
       call add_allocated(digest, requested%node_rf)
       call add_allocated(digest, requested%element_s)

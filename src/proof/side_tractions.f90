@@ -35,8 +35,7 @@ contains
       real(wp), intent(inout) :: traction(:, 0:, :) !< (2, 0:k, sides) Bernstein coefficients on the first element [F/L]
       real(wp), intent(out) :: residual
       real(wp), allocatable :: b(:, :, :)           !< (2, ends and middle, sides) moments on the first element
-      real(wp), allocatable :: length(:)            !< (sides) [L]
-      real(wp), allocatable :: run(:), sign_of(:), weight(:) ! of one chain
+      real(wp), allocatable :: length(:), run(:), sign_of(:), weight(:) !< of all sides [L]; of one chain
       integer(ip), allocatable :: ends(:)
       real(wp) :: worst
       integer(ip) :: i, k, n_terms
@@ -49,12 +48,12 @@ contains
          if (n_terms < 3) cycle
          if (sides%middle(i) == 0) then             ! a side of two nodes beside others of three: linear functions
             b(:, :2, i) = b(:, :2, i) + 0.5_wp*spread(b(:, 3, i), 2, 2)
-            cycle
+         else
+            associate (e => sides%element(1, i))
+               k = findloc(mesh%nodes(:mesh%shape(e), e), sides%middle(i), dim=1, kind=ip)
+               where (.not. known(:, i)) b(:, 3, i) = force(:, k, e)
+            end associate
          end if
-         associate (e => sides%element(1, i))
-            k = findloc(mesh%nodes(:mesh%shape(e), e), sides%middle(i), dim=1, kind=ip)
-            where (.not. known(:, i)) b(:, 3, i) = force(:, k, e)
-         end associate
       end do
       worst = 0.0_wp
       associate (most => maxval(chains%first(2:chains%n + 1) - chains%first(:chains%n)))
@@ -68,14 +67,12 @@ contains
       end do
       residual = worst/max(maxval(abs(force)), tiny(worst))
       do i = 1, sides%n
-         if (n_terms == 3 .and. sides%middle(i) == 0) then  ! a side of two nodes beside others of three
-            if (.not. all(known(:, i))) then
-               traction(:, ::2, i) = traction_of(b(:, :2, i), length(i), 1_ip)
-               traction(:, 1, i) = 0.5_wp*(traction(:, 0, i) + traction(:, 2, i))
-            end if
-            cycle
+         if (n_terms < 3 .or. sides%middle(i) > 0) then
+            traction(:, :, i) = traction_of(b(:, :, i), length(i), n_terms - 1)
+         else if (.not. all(known(:, i))) then      ! a side of two nodes beside others of three
+            traction(:, ::2, i) = traction_of(b(:, :2, i), length(i), 1_ip)
+            traction(:, 1, i) = 0.5_wp*(traction(:, 0, i) + traction(:, 2, i))
          end if
-         traction(:, :, i) = traction_of(b(:, :, i), length(i), n_terms - 1)
       end do
 
    contains
