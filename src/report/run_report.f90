@@ -66,8 +66,9 @@ contains
       report%is_good = last%converged .and. last%law_holds .and. len(ending) == 0
       if (report%is_good) then
          report%verdict = 'Solved and checked'
-         call append_string(report%details, 'Equilibrium to '//number(last%equilibrium_residual, 2) &
-                            //' of the largest force; the contact law holds at every point.')
+         call append_string(report%details, 'Equilibrium to '//number(last%equilibrium_residual, 2)//' of the largest force'// &
+                            trim(merge('; the contact law holds at every point.', '.                                      ', &
+                                       pair_count(last) > 0)))
          call append_string(report%details, 'Error: '//error_text(last)//'.')
          unique = uniqueness_text(last%uniqueness)
          if (len(unique) > 0) call append_string(report%details, 'Uniqueness: '//unique//'.')

@@ -201,7 +201,8 @@ contains
       if (results%converged .and. results%law_holds) then
          large = 'equilibrium to '//number(results%equilibrium_residual, 2)//' of the largest force'
          if (.not. (has_forces(results) .or. results%equilibrium_residual > 0.0_wp)) large = 'no forces act'
-         call add_item(page, 'checked', large//'; the contact law holds')
+         if (pair_count(results) > 0) large = large//'; the contact law holds'
+         call add_item(page, 'checked', large)
          call add_item(page, trim(merge('error    ', 'estimated', results%error_bound%exists)), error_text(results))
          unique = uniqueness_text(results%uniqueness)
          if (len(unique) > 0) call add_item(page, 'unique', unique)
