@@ -64,8 +64,8 @@ contains
       end do
    end subroutine clear_what_is_left
 
-   !> Forces at points that are round-off of those on each of their bodies are none: what closes without force has no pressure of 1e-17
-   !> of the others, by which it were said to stick or slip.
+   !> Forces at points that are round-off of those on each of their bodies are none: what closes without force has no pressure of
+   !> 1e-17 of the others, by which it were said to stick or slip.
    pure subroutine clear_round_off(data, solution)
       type(scene_data_t), intent(in) :: data
       type(contact_solution_t), intent(inout) :: solution

@@ -90,7 +90,7 @@ contains
       end associate
       if (size(idle, 2) > MOST_MOTIONS) return
       call measure_motions(data%fem, u, before, solution%state%a, off, metric)
-      call take_least(data%fem, rows, idle, off, metric, maxval(abs(u)), solution, way)
+      call take_least(data%fem, rows, idle, off, metric, maxval(abs(u)), any(data%line%tangential > 0), solution, way)
       if (.not. solution%has_settled) return
       ! only those that have moved: others are exact to their own rounding, which may be far less
       holds = [(holds(i) .and. has_moved(rows, group, way, i), i=1, rows%n)]

@@ -25,7 +25,7 @@ module atrito_motion_rows
 
 contains
 
-   !> G of all unknown forces by rows, and h = Z'f with the size of its terms. The motions of all bodies are
+   !> G of all unknown forces by rows, and h = Z'f with the size of its terms, |Z'||f|. The motions of all bodies are
    !> numbered one body after the other; a row has at most MOST_MODES entries for each body that it touches.
    pure subroutine build_motion_rows(fem, rows, line, f, motions)
       type(fem_t), intent(in) :: fem                !< bodies with their rigid modes

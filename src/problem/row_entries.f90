@@ -232,28 +232,26 @@ contains
       end do
    end subroutine loads_on_motions
 
-   !> What forces work on a rigid motion, sum over the free dofs of f z; and the size of what that is the sum of, by which
-   !> cancellation is judged: sum |f z|, or of a body that may move anyhow sum |f| |z|, whatever the axes.
+   !> What forces work on a rigid motion, sum over the free dofs of f z; and the size of what that is the sum of, sum |f
+   !> z|, by which cancellation is judged.
    pure subroutine work_on_motion(fem, body, mode, f, work, work_size)
       type(fem_t), intent(in) :: fem !< mesh, and which dofs are held
       type(body_t), intent(in) :: body              !< whose motion it is
       integer(ip), intent(in) :: mode               !< column of body%modes
       real(wp), intent(in) :: f(:, :)            !< (2, n_nodes) [F]
       real(wp), intent(out) :: work, work_size   !< [F]
-      real(wp) :: z(2)
+      real(wp) :: term
       integer(ip) :: i, dof
 
       work = 0.0_wp
       work_size = 0.0_wp
       do i = 1, size(body%nodes, kind=ip)
-         associate (node => body%nodes(i))
-            z = 0.0_wp
-            do dof = 1, 2
-               if (fem%bodies%equation(dof, node) /= 0) z(dof) = mode_at(body, body%modes(:, mode), fem%mesh%x(:, node), dof)
-            end do
-            work = work + sum(f(:, node)*z)
-            work_size = work_size + merge(norm2(f(:, node))*norm2(z), sum(abs(f(:, node)*z)), size(body%modes, 2) == MOST_MODES)
-         end associate
+         do dof = 1, 2
+            if (fem%bodies%equation(dof, body%nodes(i)) == 0) cycle
+            term = f(dof, body%nodes(i))*mode_at(body, body%modes(:, mode), fem%mesh%x(:, body%nodes(i)), dof)
+            work = work + term
+            work_size = work_size + abs(term)
+         end do
       end do
    end subroutine work_on_motion
 

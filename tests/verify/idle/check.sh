@@ -42,5 +42,10 @@ for form in dense auto; do
          "$(value "0.1*$dof")" 1e-12
    done
 done
+# a wedge that lets its block out, in either form
+for form in dense sparse; do
+   run 0 "$here/wedge.inp" wedge-$form --contact $form
+   says "wedge $form" wedge-$form.err 'W-IDLE'
+done
 same_tables "drift, both forms" drift-dense-skyline/nodes.tab drift-sparse-sparse/nodes.tab 1e-12
 finish
