@@ -7,8 +7,9 @@
 !> S = A_kk - A_ki A_ii^-1 A_ik is what the last factorisation leaves of the matrix, reduce_variable leaves f_k - A_ki A_ii^-1 f_i
 !> of a load, and expand_variable finds x_i = A_ii^-1 (f_i - A_ik x_k).
 !>
-!> Some parts of the elimination may have negative pivots in place of positive ones (take_signs): F = -L L' of their fronts. Then it is
-!> an elimination of a symmetric matrix without pivoting, and that all pivots have their signs tells how many eigenvalues are negative.
+!> Some parts of the elimination may have negative pivots in place of positive ones (take_signs): F = -L L' of their fronts. Then it
+!> is an elimination of a symmetric matrix without pivoting, and that all pivots have their signs tells how many eigenvalues are
+!> negative.
 !>
 !> Use: create_variable_matrix; then set_variable_element, factor_variable_matrix and solve_variable_matrix as often as wanted; with
 !> kept unknowns kept_values, reduce_variable and expand_variable in place of the last.
@@ -21,7 +22,7 @@ module atrito_variable_matrix
    use atrito_front_records, only: HEADER
    use atrito_front_solves, only: forward, backward, solve_on_way
    use atrito_kinds, only: ip, lp, wp
-   use atrito_status, only: status_t, set_status, STATUS_SINGULAR
+   use atrito_status, only: status_t, set_status, STATUS_INTERNAL, STATUS_SINGULAR
    implicit none (type, external)
    private
    public :: variable_matrix_t, create_variable_matrix, set_variable_element, factor_variable_matrix, solve_variable_matrix, &
@@ -184,13 +185,25 @@ contains
       matrix%reached = pack([(i, i=1, matrix%n)], is_reached)
    end subroutine find_way
 
-   !> Which equations have negative pivots; all of a part of the elimination have, or none.
-   subroutine take_signs(matrix, is_negative)
+   !> Which equations have negative pivots; all of a part of the elimination have, or none. status: STATUS_INTERNAL where parts that
+   !> have and parts that have not share a front.
+   subroutine take_signs(matrix, is_negative, status)
       type(variable_matrix_t), intent(inout) :: matrix
       logical, intent(in) :: is_negative(:)        !< (n)
+      type(status_t), intent(out) :: status
+      integer(ip) :: p
 
       allocate (matrix%fronts%is_negative(matrix%n))
       matrix%fronts%is_negative(matrix%elimination%position) = is_negative
+      associate (fronts => matrix%fronts, first => matrix%fronts%first)
+         do p = 1, fronts%n_supernodes - 1
+            associate (shared => first(fronts%representative(fronts%class_of(p))))
+               if (any(fronts%is_negative(first(p):first(p + 1) - 1) .neqv. fronts%is_negative(min(shared, matrix%n)))) then
+                  call set_status(status, STATUS_INTERNAL, 'a front of both signs')
+               end if
+            end associate
+         end do
+      end associate
    end subroutine take_signs
 
    !> The next factorisation takes this matrix for a variable element.

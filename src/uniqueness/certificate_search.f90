@@ -13,8 +13,9 @@
 !>
 !> with a = |W z_n|^2/2, b = |A_t z|^2/2, c = z_n'(A z)_n, d = z_t'(A z)_t. So (Kelley's method) the next alpha and gamma are those
 !> where the greatest of all cuts is least, not too far from the best so far, and the greatest there is what can be gained at most.
-!> An alpha for which H is not positive is not come nearer to than half way. The set of (alpha, gamma) that serve an s is convex, so there is one least; a few rounds come to within some per cent of it, and
-!> any (alpha, gamma) will do. In the end the matrix of the best is factored: its Cholesky factor is the proof.
+!> An alpha for which H is not positive is not come nearer to than half way. The set of (alpha, gamma) that serve an s is convex, so
+!> there is one least; a few rounds come to within some per cent of it, and any (alpha, gamma) will do. In the end the matrix of the
+!> best is factored: its Cholesky factor is the proof.
 module atrito_certificate_search
    use atrito_certificate_forms, only: build_certified, factor_pencil, forms_t, pencil_t
    use atrito_dense, only: multiply_transposed, multiply_vector

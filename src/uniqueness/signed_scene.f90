@@ -5,14 +5,14 @@
 !> c = (alpha + 1)/2, b = (alpha - 1)/2 and mu = nu/(2 gamma), the form that is to be positive is
 !>
 !>     min over w, max over z of   -z'K z + 2 z'(c B_n'q_n + B_t'q_t) + w'(K - mu B_t'B_t) w + 2 b w'B_n'q_n
-!>                                 + alpha q_n'D q_n - nu gamma/2 |W q_n|^2:
+!>                                 + alpha q_n'D q_n - nu gamma/2 |W q_n|^2
 !>
-!> K z are the forces of alpha A_nn + ..., the square of c and 1; K w those of (alpha - 1)^2/4 A_nn, which that is too much; and -mu
-!> |A_t q|^2 comes with w, as A_t q = B_t (z + w), where q_t is the tangential force and half of what w has at the slip. So it is
-!> positive on the kernel of G' where the matrix of (z, w, q) with the border G a has as many negative pivots as there are z and a,
-!> and positive ones for w and q (Sylvester). One elimination tells: that of the scene, each of its parts cut in three, first z, then
-!> w and q, then a. Where a pivot has another sign nothing is proved; with this order that happened within rounding of the nu where
-!> the form is singular. A row of W joins points, and the pressures wait for the part that all parts of these points lead to.
+!> (docs/theory/uniqueness.md has the steps; q_t is here the tangential force and half of what -mu |A_t q|^2 = min over s of
+!> |s|^2/(4 mu) + s'A_t q adds to it). So it is positive on the kernel of G' where the matrix of (z, w, q) bordered by G a has as
+!> many negative eigenvalues as there are z and a, and positive ones for w and q (Sylvester). One elimination tells: that of the
+!> scene, each of its parts cut in three, first z, then w and q, then a. Where a pivot has another sign nothing is proved. A part
+!> that is eliminated is a scene of its own, held where it ends; that it is not worse than the whole, forces wait for the parts of
+!> their neighbours, and pressures for those of all that a row of W joins.
 module atrito_signed_scene
    use atrito_assembled_scene, only: collect_scene
    use atrito_assembly, only: fem_t
@@ -44,8 +44,8 @@ module atrito_signed_scene
       integer(ip), allocatable :: unknown(:)
    end type signed_scene_t
 
-   !> Of the springs that hold floating bodies (atrito_scene_elimination): a motion is alone with them until its balance a comes, and has
-   !> to be positive until then.
+   !> Of the springs that hold floating bodies (atrito_scene_elimination): a motion is alone with them until its balance comes, and
+   !> has to be positive until then.
    real(wp), parameter :: SOFT = 1.0e-5_wp
    integer(ip), parameter :: FEW = 400            !< forces that all come last
    integer(ip), parameter :: NEIGHBOURS = 24      !< of a force of more, on either side
@@ -93,11 +93,11 @@ contains
          negative = [(i > n .and. i <= 2*n .or. i > 2*n + m, i=1, n_all)]
       end associate
       call create_variable_matrix(signed%matrix, n_all, elimination, store, signed%start, signed%unknown, status)
-      if (is_ok(status)) call take_signs(signed%matrix, negative)
+      if (is_ok(status)) call take_signs(signed%matrix, negative, status)
    end subroutine build_signed_scene
 
-   !> The elements that change: a row with its force, z and w at its displacements and its motions; rows of W that follow each other,
-   !> as many as have less than twice the points of one of them.
+   !> The elements that change: a row with its force, z and w at its displacements and its motions; rows of W that follow each
+   !> other, as many as have less than twice the points of one of them.
    subroutine list_elements(signed)
       type(signed_scene_t), intent(inout) :: signed
       integer(ip), allocatable :: columns(:), more(:)
@@ -361,8 +361,8 @@ contains
 
    end subroutine factor_signed
 
-   !> What the factored form makes of y: with P for its matrix, (W q_n, B_t w) of the solution of P (w, z, q, a) = (B_t'y_t, 0, W'y_n,
-   !> 0).
+   !> What the factored form makes of y: with P for its matrix, (W q_n, B_t w) of the solution of P (w, z, q, a) =
+   !> (B_t'y_t, 0, W'y_n, 0).
    subroutine multiply_compliance(signed, y_n, y_t, image_n, image_t)
       type(signed_scene_t), intent(in) :: signed  !< factored
       real(wp), intent(in) :: y_n(:), y_t(:)      !< (tangential forces)

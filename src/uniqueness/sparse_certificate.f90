@@ -1,9 +1,10 @@
 !> The certificate for every load of a line in the sparse form, from a sparse matrix with signs (atrito_signed_scene).
 !>
-!> The form is H(alpha) - nu R(gamma), R = F'F with F = ((gamma/2)^(1/2) W q_n, (2 gamma)^(-1/2) B_t w) of the unknowns of that matrix.
-!> With H factored a few steps on vectors (y_n, y_t), two linear solves each, find from below the largest eigenvalue of F H^-1 F',
-!> which is 1/nu: of W alone it is L_n gamma/2, of the slip L_t/(2 gamma), and gamma = (L_t/L_n)^(1/2) makes them alike. Then the matrix
-!> of a nu that is a little less is factored: its signs are the proof. alpha goes uphill in few steps, as any one will do.
+!> The form is H(alpha) - nu R(gamma), R = F'F with F = ((gamma/2)^(1/2) W q_n, (2 gamma)^(-1/2) B_t w) of the unknowns of that
+!> matrix. With H factored a few steps on vectors (y_n, y_t), two linear solves each, find from below the largest eigenvalue of
+!> F H^-1 F', which is 1/nu: of W alone it is L_n gamma/2, of the slip L_t/(2 gamma), and gamma = (L_t/L_n)^(1/2) makes them alike.
+!> Then the matrix of a nu that is a little less is factored: its signs are the proof. alpha goes uphill in few steps, as any one
+!> will do.
 module atrito_sparse_certificate
    use atrito_assembly, only: fem_t
    use atrito_contact_line, only: contact_line_t
@@ -85,8 +86,8 @@ contains
 
    contains
 
-      !> Up in steps that grow, or down, until the best lies between two others; then into the larger gap beside it, or of equal ones
-      !> that with the better end.
+      !> Up in steps that grow, or down, until the best lies between two others; then into the larger gap beside it, or of equal
+      !> ones that with the better end.
       pure real(wp) function next_place() result(place)
 
          if (best == 0) then
@@ -153,7 +154,7 @@ contains
                   do p = 1, n
                      do q = 1, n
                         t((a - 1)*n + p, (b - 1)*n + q) = scale(a)*scale(b) &
-                                                *dot_product(space%y(:, p, kinds(a)), space%image(:, q, kinds(b), kinds(a)))
+                                                        *dot_product(space%y(:, p, kinds(a)), space%image(:, q, kinds(b), kinds(a)))
                      end do
                   end do
                end do

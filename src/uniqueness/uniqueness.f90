@@ -72,16 +72,17 @@ contains
       type(status_t) :: status
       real(wp), allocatable :: g(:, :)
       real(wp) :: nu
-      integer(ip) :: i, k, n
+      integer(ip) :: i, k, n, n_normal
 
       associate (known => certificate%known)
          known%nu = maxval(line%law%nu)
          call build_constraint_rows(fem, rows, line, .true., b)
          n = sum(fem%bodies%list%n)
+         n_normal = count(line%normal > 0, kind=ip)
          allocate (g(2, n + 1:b%n_columns), source=0.0_wp)   ! the largest of each motion along a normal, along a tangent
          do i = 1, b%n
             do k = b%first(i), b%first(i + 1) - 1
-               associate (column => b%column(k), kind_of => merge(1, 2, i <= count(line%normal > 0)))
+               associate (column => b%column(k), kind_of => merge(1, 2, i <= n_normal))
                   if (column > n) g(kind_of, column) = max(g(kind_of, column), abs(b%value(k)))
                end associate
             end do
