@@ -38,7 +38,7 @@ module atrito_contact_fronts
    use atrito_contact_line, only: contact_line_t, set_friction_bounds
    use atrito_contact_solution, only: contact_solution_t, bound_of_state
    use atrito_contact_system, only: contact_system_t
-   use atrito_held_states, only: held_states_t, hold_states, agree, take_agreed, MANY_SOLVES
+   use atrito_held_states, only: held_states_t, hold_states, agree, take_agreed
    use atrito_kinds, only: ip, wp
    use atrito_multiplier_step, only: residual_of, provide_factor, largest_of_pairs, set_held_forces
    use atrito_multipliers, only: multiplier_t
@@ -65,7 +65,6 @@ module atrito_contact_fronts
    integer(ip), parameter :: LOOKS_AHEAD = 8_ip    !< points that do not change, before those that do are looked for no more
    real(wp), parameter :: FEW_CHANGES = 0.1_wp     !< of the points: the friction bound may follow
    real(wp), parameter :: AGREE_NEARLY = 0.1_wp    !< what may be left of forces and bound while states change, of the largest
-   integer(ip), parameter :: FEW_SOLVES = 3_ip     !< at the points, for that
    real(wp), parameter :: NO_EXCESS = 1.0e-10_wp   !< of the largest force of the pair
 
 contains
@@ -126,7 +125,7 @@ contains
             best%changes = changes
          end if
          found = changes == 0 .and. follows
-         if (found .and. agrees) call agree(system, shape, line, multipliers, tolerance, MANY_SOLVES, held, agrees)
+         if (found .and. agrees) call agree(system, shape, line, multipliers, tolerance, held, agrees)
          if (found .and. agrees) then
             call take_agreed(shape, line, held, multipliers, solution)
             raw = states_of_law(system, shape, solution%bounds, multipliers, solution%state, before)
@@ -157,7 +156,7 @@ contains
       subroutine follow_bound()
          agrees = .false.
          if (follows) call hold_states(system, line, multipliers, solution, held)
-         if (follows) call agree(system, shape, line, multipliers, AGREE_NEARLY, FEW_SOLVES, held, agrees)
+         if (follows) call agree(system, shape, line, multipliers, AGREE_NEARLY, held, agrees)
          if (agrees) call take_agreed(shape, line, held, multipliers, solution)
          if (agrees) return
          multipliers%a_old = multipliers%x(system%n - system%k + 1:)

@@ -25,7 +25,7 @@ module atrito_held_states
    use atrito_sparse_rows, only: multiply_rows, add_transposed
    implicit none (type, external)
    private
-   public :: held_states_t, hold_states, agree, take_agreed, MANY_SOLVES
+   public :: held_states_t, hold_states, agree, take_agreed
 
    !> The iteration: z, G(z), and the displacements at the rows that belong to them.
    type :: held_states_t
@@ -39,9 +39,9 @@ module atrito_held_states
       type(anderson_t) :: anderson
    end type held_states_t
 
-   real(wp), parameter :: ENOUGH = 0.1_wp         !< of what was left at first
+   real(wp), parameter :: ENOUGH = 1.0e-3_wp      !< of what was left at first; round-off may be above the tolerance
    real(wp), parameter :: DIVERGES = 10.0_wp      !< times the least that was left
-   integer(ip), parameter :: MANY_SOLVES = 30_ip  !< to agree to the tolerance
+   integer(ip), parameter :: MOST_SOLVES = 30_ip
    integer(ip), parameter :: PATIENCE = 4_ip      !< solves without less than half of what was left
 
 contains
@@ -78,14 +78,13 @@ contains
       where (held%unit <= 0.0_wp) held%unit = 1.0_wp
    end subroutine hold_states
 
-   !> Goes on until no more than the tolerance is left of G(z) - z. agrees: it is so, or a tenth is left of what was at first.
-   subroutine agree(system, shape, line, multipliers, tolerance, most_solves, held, agrees)
+   !> Goes on until no more than the tolerance is left of G(z) - z. agrees: it is so, or a thousandth is left of what was at first.
+   subroutine agree(system, shape, line, multipliers, tolerance, held, agrees)
       class(contact_system_t), intent(in) :: system
       type(bound_qp_t), intent(in) :: shape
       type(contact_line_t), intent(in) :: line
       type(multiplier_t), intent(in) :: multipliers !< rho, the pull and the stiffness factored
       real(wp), intent(in) :: tolerance          !< of the largest force of the pair, and of the largest bound
-      integer(ip), intent(in) :: most_solves
       type(held_states_t), intent(inout) :: held
       logical, intent(out) :: agrees
       type(box_state_t) :: scratch               ! states with points that have no friction for a while
@@ -101,7 +100,7 @@ contains
       scratch = held%state
       least = huge(least)
       since = 0
-      do solves = 0, most_solves
+      do solves = 0, MOST_SOLVES
          z = [held%q_o, held%tau]/held%unit
          g = [held%state%q, friction_bound(line, pressure_of(line, held%state%q))]/held%unit
          left = maxval([abs(g - z), pull_of(multipliers)*abs(held%a - held%a_o)/maxval([held%unit(:m), 0.0_wp])])
@@ -109,7 +108,7 @@ contains
          since = merge(0_ip, since + 1_ip, left < 0.5_wp*least)
          least = min(left, least)
          agrees = left <= max(tolerance, ENOUGH*held%first)
-         if (left <= tolerance .or. left > DIVERGES*least .or. since >= PATIENCE .or. solves == most_solves) return
+         if (left <= tolerance .or. left > DIVERGES*least .or. since >= PATIENCE .or. solves == MOST_SOLVES) return
          call held%anderson%update(z, g, next)
          next = held%unit*next
          held%q_o = merge(next(:m), held%state%q, held%state%state == FREE)

@@ -44,7 +44,7 @@ module atrito_multiplier_loop
    use atrito_contact_solution, only: contact_solution_t, asks_no_force, let_rest, FREE_MOTION, bound_of_state
    use atrito_contact_system, only: contact_system_t
    use atrito_controls, only: controls_t
-   use atrito_held_states, only: held_states_t, hold_states, agree, take_agreed, MANY_SOLVES
+   use atrito_held_states, only: held_states_t, hold_states, agree, take_agreed
    use atrito_multipliers, only: multiplier_t
    use atrito_undetermined_motions, only: settle_undetermined_motions
    use atrito_kinds, only: ip, wp, HUGE_REAL
@@ -152,7 +152,7 @@ contains
          end if
          holds = has_many_points(line) .and. .not. (multipliers%changed .or. loop%shares)
          if (holds) call hold_states(system, line, multipliers, solution, held)
-         if (holds) call agree(system, shape, line, multipliers, controls%tolerance, MANY_SOLVES, held, holds)
+         if (holds) call agree(system, shape, line, multipliers, controls%tolerance, held, holds)
          if (holds) then
             call take_agreed(shape, line, held, multipliers, solution)
             tau = solution%tau
