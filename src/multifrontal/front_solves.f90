@@ -191,8 +191,8 @@ contains
       end do
    end subroutine backward_supernode
 
-   !> x <- (L L')^-1 x on a way through the tree, of a load that is there alone: supernodes with all those above them. Numbers below 0
-   !> stand for children of these that are not of the way: they leave nothing, and what is found above them is of no use there.
+   !> x <- (L L')^-1 x on a way through the tree, of a load that is there alone: supernodes with all those above them. Numbers below
+   !> 0 stand for children of these that are not of the way: they leave nothing, and nobody asks for x there.
    subroutine solve_on_way(fronts, way, x)
       type(fronts_t), intent(in) :: fronts
       integer(ip), intent(in) :: way(:)          !< supernodes in their order

@@ -26,8 +26,9 @@
 !> and the front goes by 2 D/3, or 2 m if that is more. Half of what the law leaves in front of it stays: let go at once, a body
 !> that the last stuck points hold would fly. So the number of solves does not grow with the number of points.
 !>
-!> The friction bound is frozen while more than FEW_CHANGES of the points change, as in the Picard loop, and follows the pressures
-!> then. Rows whose states follow each other in a circle come out of it as the one that is furthest off its law changes first
+!> The friction bound is frozen while more than FEW_CHANGES of the points change, as in the Picard loop. Then bound and forces are
+!> made to agree with the states (atrito_held_states), nearly while these change, and to the tolerance where they do not. Rows whose
+!> states follow each other in a circle come out of it as the one that is furthest off its law changes first
 !> (furthest_off_first). What is found is a start for the steps of the multipliers, which go to the last digit and ask whether the
 !> states are right. Where states do not come to rest they take the solve after which the law asked for the fewest changes; where
 !> these are more than NEAR of the points (bodies that nothing holds while all slips, say), they begin without.
@@ -58,12 +59,12 @@ module atrito_contact_fronts
    integer(ip), parameter :: MANY_POINTS = 100_ip  !< for which it is worth it
    integer(ip), parameter :: MOST_SOLVES = 60_ip
    integer(ip), parameter :: MOST_IN_VAIN = 10_ip  !< of them, since fewer points changed than in each of the three before
-   real(wp), parameter :: LOOSE = 1.0e-3_wp
    integer(ip), parameter :: TO_AND_FRO = 3_ip
    integer(ip), parameter :: SPACING = 5_ip
    real(wp), parameter :: NEAR = 0.05_wp           !< of the points may still change in a start
    integer(ip), parameter :: LOOKS_AHEAD = 8_ip    !< points that do not change, before those that do are looked for no more
    real(wp), parameter :: FEW_CHANGES = 0.1_wp     !< of the points: the friction bound may follow
+   real(wp), parameter :: AGREE_NEARLY = 0.1_wp    !< what may be left of forces and bound while states change, of the largest
    real(wp), parameter :: NO_EXCESS = 1.0e-10_wp   !< of the largest force of the pair
 
 contains
@@ -75,13 +76,14 @@ contains
       has_many_points = line%n - line%n_bilateral >= MANY_POINTS
    end function has_many_points
 
-   !> States, friction bound, forces and displacements near a solution. found: whether the states came to rest, or nearly; else all
+   !> States, friction bound, forces and displacements near a solution. found: whether the states came to rest, or nearly
+   !> (multipliers%changed); else all
    !> is as it was, as it is where a matrix of states that were tried is singular. status: that of system%factor but for that.
    subroutine find_fronts(system, shape, line, tolerance, multipliers, solution, found, status)
       class(contact_system_t), intent(inout) :: system !< A, B, loads, flexibilities
       type(bound_qp_t), intent(in) :: shape   !< numbers of unknowns and weights
       type(contact_line_t), intent(in) :: line !< points, laws, average S_rho
-      real(wp), intent(in) :: tolerance
+      real(wp), intent(in) :: tolerance !< of forces and bound once states have come to rest, of the largest of the pair
       type(multiplier_t), intent(inout) :: multipliers !< x, e, q_o, a_o and the sizes of the step
       type(contact_solution_t), intent(inout) :: solution !< states, bound tau; what is found
       logical, intent(out) :: found
@@ -113,16 +115,7 @@ contains
             exit
          end if
          call record_solve(solution%history, shape, solution%bounds, solution%state)
-         agrees = .false.
-         if (follows) call hold_states(system, multipliers, solution, held)
-         if (follows) call agree(system, shape, line, multipliers, LOOSE, held, agrees)
-         if (agrees) then
-            call take_agreed(shape, line, held, multipliers, solution)
-         else
-            multipliers%a_old = multipliers%x(system%n - system%k + 1:)
-            if (follows) solution%tau = bound_of_state(line, solution)
-            call set_friction_bounds(line, shape, solution%tau, solution%bounds, solution%state)
-         end if
+         call follow_bound()
          ! the proximal terms stand at what is found
          multipliers%q_old = min(max(solution%state%q, solution%bounds%lower), solution%bounds%upper)
          raw = states_of_law(system, shape, solution%bounds, multipliers, solution%state, before)
@@ -132,8 +125,8 @@ contains
             best%changes = changes
          end if
          found = changes == 0 .and. follows
+         if (found .and. agrees) call agree(system, shape, line, multipliers, tolerance, held, agrees)
          if (found .and. agrees) then
-            call agree(system, shape, line, multipliers, tolerance, held, agrees)
             call take_agreed(shape, line, held, multipliers, solution)
             raw = states_of_law(system, shape, solution%bounds, multipliers, solution%state, before)
             changes = count(raw /= before, kind=ip)
@@ -149,12 +142,28 @@ contains
          where (solution%state%state /= before) turns = turns + 1
          since = merge(0_ip, since + 1_ip, all(changes < last))
          last = [last(2:), changes]
+         multipliers%changed = .not. found
          if (found) return
          if (since >= MOST_IN_VAIN) exit
       end do
       found = is_ok(status) .and. best%changes <= NEAR*line%n
       if (found) begun = best
       call go_to(begun, multipliers, solution)
+
+   contains
+
+      !> Forces and friction bound that nearly agree with the states of the solve; Picard's bound where they do not come to that.
+      subroutine follow_bound()
+         agrees = .false.
+         if (follows) call hold_states(system, line, multipliers, solution, held)
+         if (follows) call agree(system, shape, line, multipliers, AGREE_NEARLY, held, agrees)
+         if (agrees) call take_agreed(shape, line, held, multipliers, solution)
+         if (agrees) return
+         multipliers%a_old = multipliers%x(system%n - system%k + 1:)
+         if (follows) solution%tau = bound_of_state(line, solution)
+         call set_friction_bounds(line, shape, solution%tau, solution%bounds, solution%state)
+      end subroutine follow_bound
+
    end subroutine find_fronts
 
    !> Where the fronts are.

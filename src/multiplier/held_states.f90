@@ -1,22 +1,22 @@
-!> Forces and friction bound that agree, with the states of all rows held: where the steps of the multipliers come to if no state
-!> changes any more.
+!> Forces and friction bound that agree, with the states of all rows held: where the steps of the multipliers would come to if no
+!> state changed any more.
 !>
-!> With the states held a step of the multipliers is linear. It takes z = (q_o, tau, a_o) to G(z) = (q, nu S_rho(p), a), and what is
-!> wanted is z = G(z): with tau = nu S_rho(p) in the equations of the points that slip the matrix would be unsymmetric in their rows,
-!> and this is how they are solved with the symmetric one. What z changes are forces at the contact line alone,
+!> With the states held a step of the multipliers is linear. It takes z = (q_o, a_o, tau) to G(z) = (q, a, nu S_rho(p)), and what
+!> is wanted is z = G(z). Newton's method on all three would have an unsymmetric matrix: where a point slips, tau depends on p. But
+!> z changes forces of rows and amplitudes alone, and of the displacements G takes those of the rows alone,
 !>
-!>     H dx = -B' (q(e, z) - q_b) + kappa H_a da_o,
+!>     H dx = -B' (q(e, z) - q_b) + kappa H_a da_o,     e = B x + g0 and a from dx,     q_b <- q(e, z) + s B dx,
 !>
-!> where q_b are the forces for which x is in equilibrium, and what G wants of dx is B dx and da. So an evaluation of G is a solve at the
-!> unknowns of the rows (solve_at_rows), which takes the fronts above the points alone. Equilibrium behind it holds for
-!> q_b <- q(e, z) + s B dx, s being the stiffness that was factored in the FREE rows: where D has changed since (eps > 0) q_b is not
-!> quite the force of the law, and the next solve takes the difference.
+!> H being the matrix that was factored last, q_b the forces which x is in equilibrium with, and s the stiffness that was factored,
+!> 0 but in FREE rows. So G(z) takes a solve at the rows (solve_at_rows), by the fronts above the points. (Where D has changed
+!> since, as it does with tau where eps > 0, q_b is not quite q, and the next solve takes the difference.)
 !>
-!> G contracts by rho/(lambda + rho) and by some nu; Anderson's mixing of q_o and tau makes it a Krylov method of that linear map.
+!> G - 1 is near to -1: q_o contracts by rho/(lambda + rho), tau by some nu. So Anderson's mixing, GMRES with few vectors, takes one
+!> solve for one digit or two. The next whole solve takes x along, and finds z = G(z) where the states stay.
 module atrito_held_states
    use atrito_accelerator, only: anderson_t
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER
-   use atrito_contact_line, only: contact_line_t, friction_bound, pressure_of, set_friction_bounds
+   use atrito_contact_line, only: contact_line_t, friction_bound, last_of_pair, pressure_of, set_friction_bounds
    use atrito_contact_solution, only: contact_solution_t
    use atrito_contact_system, only: contact_system_t
    use atrito_kinds, only: ip, wp, HUGE_REAL
@@ -34,23 +34,26 @@ module atrito_held_states
       real(wp), allocatable :: e(:), a(:)        !< (m) B x + g0 and (k) amplitudes [L]
       real(wp), allocatable :: q_o(:), a_o(:), tau(:) !< z
       real(wp), allocatable :: balanced(:)       !< (m) q_b [F]
-      real(wp), allocatable :: unit(:)           !< (m + points) of forces and bounds
-      real(wp) :: first = -1.0_wp, left = 0.0_wp !< G(z) - z before the first solve, and now; first < 0: none
+      real(wp), allocatable :: unit(:)           !< (m + points) of forces and bounds [F], [F/L^2]
+      real(wp) :: first = -1.0_wp                !< the largest part of G(z) - z before the first solve; < 0: there was none
       type(anderson_t) :: anderson
    end type held_states_t
 
-   real(wp), parameter :: ENOUGH = 1.0e-3_wp         !< of what was left at first
+   real(wp), parameter :: ENOUGH = 1.0e-3_wp      !< of what was left at first; round-off may be above the tolerance
+   real(wp), parameter :: DIVERGES = 10.0_wp      !< times the least that was left
    integer(ip), parameter :: MOST_SOLVES = 30_ip
-   integer(ip), parameter :: PATIENCE = 4_ip        !< solves without less than half of what was left
+   integer(ip), parameter :: PATIENCE = 4_ip      !< solves without less than half of what was left
 
 contains
 
    !> Begins behind a whole solve with these states.
-   subroutine hold_states(system, multipliers, solution, held)
+   subroutine hold_states(system, line, multipliers, solution, held)
       class(contact_system_t), intent(in) :: system
+      type(contact_line_t), intent(in) :: line
       type(multiplier_t), intent(in) :: multipliers !< x, e, q_o, a_o of the solve
       type(contact_solution_t), intent(in) :: solution !< states, forces, bound of it
       type(held_states_t), intent(out) :: held
+      integer(ip) :: first, last
 
       held%state = solution%state
       held%bounds = solution%bounds
@@ -61,14 +64,21 @@ contains
       held%tau = solution%tau
       held%balanced = solution%state%q
       held%anderson%least = -HUGE_REAL
-      ! the largest force of the pair of each row, and the largest bound for all points
-      associate (largest => largest_of_pairs(multipliers, abs(solution%state%q)))
-         held%unit = [largest(multipliers%pair), spread(maxval([solution%tau, 0.0_wp]), 1, size(solution%tau))]
+      ! each pair is measured by its largest force, and by its largest bound
+      associate (m => system%rows%n, largest => largest_of_pairs(multipliers, abs(solution%state%q)))
+         allocate (held%unit(m + line%n))
+         held%unit(:m) = largest(multipliers%pair)
+         last = 0
+         do while (last < line%n)
+            first = last + 1
+            last = last_of_pair(line, first)
+            held%unit(m + first:m + last) = maxval(solution%tau(first:last))
+         end do
       end associate
       where (held%unit <= 0.0_wp) held%unit = 1.0_wp
    end subroutine hold_states
 
-   !> Goes on until no more than the tolerance is left of G(z) - z. agrees: it is so, or nearly.
+   !> Goes on until no more than the tolerance is left of G(z) - z. agrees: it is so, or a thousandth is left of what was at first.
    subroutine agree(system, shape, line, multipliers, tolerance, held, agrees)
       class(contact_system_t), intent(in) :: system
       type(bound_qp_t), intent(in) :: shape
@@ -80,7 +90,7 @@ contains
       type(box_state_t) :: scratch               ! states with points that have no friction for a while
       real(wp) :: f(system%n), de(system%rows%n), rho(system%rows%n)
       real(wp), dimension(size(held%unit)) :: z, g, next
-      real(wp) :: least
+      real(wp) :: left, least
       integer(ip) :: m, solves, since
 
       agrees = .false.
@@ -93,12 +103,12 @@ contains
       do solves = 0, MOST_SOLVES
          z = [held%q_o, held%tau]/held%unit
          g = [held%state%q, friction_bound(line, pressure_of(line, held%state%q))]/held%unit
-         held%left = maxval([abs(g - z), pull_of(multipliers)*abs(held%a - held%a_o)/maxval([held%unit(:m), 0.0_wp])])
-         if (held%first < 0.0_wp) held%first = held%left
-         since = merge(0_ip, since + 1_ip, held%left < 0.5_wp*least)
-         least = min(held%left, least)
-         agrees = held%left <= tolerance
-         if (agrees .or. since >= PATIENCE .or. solves == MOST_SOLVES) exit
+         left = maxval([abs(g - z), pull_of(multipliers)*abs(held%a - held%a_o)/maxval([held%unit(:m), 0.0_wp])])
+         if (held%first < 0.0_wp) held%first = left
+         since = merge(0_ip, since + 1_ip, left < 0.5_wp*least)
+         least = min(left, least)
+         agrees = left <= max(tolerance, ENOUGH*held%first)
+         if (left <= tolerance .or. left > DIVERGES*least .or. since >= PATIENCE .or. solves == MOST_SOLVES) return
          call held%anderson%update(z, g, next)
          next = held%unit*next
          held%q_o = merge(next(:m), held%state%q, held%state%state == FREE)
@@ -117,7 +127,6 @@ contains
          where (held%state%state == FREE) held%balanced = held%balanced + multipliers%stiffness*de
          call set_forces()
       end do
-      agrees = agrees .or. held%left <= ENOUGH*held%first
 
    contains
 

@@ -19,7 +19,8 @@
 !> What makes it fast or ends it, each in the procedure of its name:
 !>
 !>     find_fronts          with many points, states near a solution before the first step
-!>     next_start           Anderson's mixing of forces and bound once a step has changed no state; Picard's bound before
+!>     agree                with many points, forces and bound of the states once a step has changed none (atrito_held_states)
+!>     next_start           else Picard's bound while states change, and Anderson's mixing behind
 !>     choose_steps         less rho where forces come slowly; where states still change after MANY_STEPS, rho as large as the
 !>                          flexibility and a share of the way to Picard's bound, point by point (go_part_of_the_way)
 !>     judge                kappa falls where a body goes on moving, so that it gets where something holds it; when the pull on it
@@ -122,7 +123,7 @@ contains
       end if
       if (.not. is_ok(status)) return
       tau = solution%tau
-      holds = found
+      holds = found .and. .not. multipliers%changed
       outer = 0
       do
          outer = outer + 1
@@ -149,8 +150,8 @@ contains
             call set_status(status, STATUS_SINGULAR, FREE_MOTION)
             return
          end if
-         holds = has_many_points(line) .and. .not. multipliers%changed .and. all(tau < HUGE_REAL)
-         if (holds) call hold_states(system, multipliers, solution, held)
+         holds = has_many_points(line) .and. .not. (multipliers%changed .or. loop%shares)
+         if (holds) call hold_states(system, line, multipliers, solution, held)
          if (holds) call agree(system, shape, line, multipliers, controls%tolerance, held, holds)
          if (holds) then
             call take_agreed(shape, line, held, multipliers, solution)

@@ -167,10 +167,7 @@ contains
       state%a = multipliers%x(system%n - system%k + 1:)
    end subroutine set_forces
 
-   !> Forces from the displacements where the states are held: FREE rows obey their law, the others have the force of their bound.
-   !>
-   !>     q_i = (e_i + rho_i q_o,i)/(D_i + rho_i) in FREE rows, else the bound
-   !>
+   !> Forces from the displacements where the states are held: q = (e + rho q_o)/(D + rho) in FREE rows, else that of the bound.
    !> Not clipped: a force beyond a bound says that the state is another one.
    subroutine set_held_forces(system, bounds, multipliers, state)
       class(contact_system_t), intent(in) :: system
@@ -282,11 +279,8 @@ contains
 
       multipliers%settled = .false.
       multipliers%changed = .false.
-      if (holds) then
-         call set_held_forces(system, bounds, multipliers, state)
-      else
-         call set_forces(system, bounds, multipliers, state)
-      end if
+      if (holds) call set_held_forces(system, bounds, multipliers, state)
+      if (.not. holds) call set_forces(system, bounds, multipliers, state)
       do newton = 1, MOST_NEWTON
          ! minus the gradient, the matrix of the present states, Newton's direction
          call residual_of(system, multipliers, state%q, residual)
@@ -298,12 +292,10 @@ contains
          call multiply_rows(system%rows, dx, de)
          before = state%q
          call try_full_step(system, bounds, dx, de, multipliers, state, stays)
-         if (.not. stays) then
-            if (holds .and. newton == 1) then
-               call set_forces(system, bounds, multipliers, state)
-            else
-               call take_part_of_step()
-            end if
+         if (.not. stays .and. holds .and. newton == 1) then
+            call set_forces(system, bounds, multipliers, state)
+         else if (.not. stays) then
+            call take_part_of_step()
          end if
          ! points at the edge of contact may change for ever by what is round-off of their forces
          if (newton >= PATIENCE .and. .not. stays) stays = all(abs(state%q - before) <= multipliers%noise)

@@ -95,7 +95,7 @@ contains
       do i = 1, most_steps
          if (.not. is_ok(status)) return
          call begin_outer(history)
-         call take_multiplier_step(system, shape, bounds, multipliers, state, history, status)
+         call take_multiplier_step(system, shape, bounds, .false., multipliers, state, history, status)
          call accept_step(system, state, multipliers)
       end do
    end subroutine solve_case
