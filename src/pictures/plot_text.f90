@@ -24,7 +24,7 @@ module atrito_plot_text
    integer(ip), parameter :: MOST_STYLES = 3*N_COLOURS  !< colours that can be told apart
    !> Kinds of line that can be told apart in grey, as gnuplot's dt has them.
    character(len=13), parameter :: DASH(10) = [character(len=13) :: '1', '(9,3)', '(3,3)', '(9,3,2,3)', '(18,4)', '(9,3,2,3,2,3)', &
-                                               '(2,5)', '(18,4,5,4)', '(5,2)', '(1,2)']
+                                                                                            '(2,5)', '(18,4,5,4)', '(5,2)', '(1,2)']
    !> Letters in UTF-8.
    character(len=2), parameter :: GREEK_NU = char(206)//char(189), GREEK_EPSILON = char(206)//char(181), &
                                   GREEK_RHO = char(207)//char(129), GREEK_DELTA = char(206)//char(180), &
