@@ -168,7 +168,7 @@ contains
       star%factor(:star%n_free, :star%n_free) = 0.0_wp
       do j = 1, size(element, kind=ip)
          call find_places(j)
-         if (star%corner(j) == 1 .or. 2*size(outlines%h, 2) < size(outlines%energy)) then ! many stars are like this one
+         if (star%corner(j) == 1) then
             call take_columns(mesh, outlines, element(j), star%h(:, :, j), star%z(:, :, j))
          else
             call take_columns(mesh, outlines, element(j), star%h(:, :, j), star%z(:, :, j), star%place(:, j))
