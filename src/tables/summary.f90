@@ -2,7 +2,7 @@
 module atrito_summary
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use atrito_kinds, only: ip, wp
-   use atrito_page, only: number
+   use atrito_page, only: number, plural
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_model, only: model_t
    use atrito_results, only: results_t, history_t, scene_t, contact_result_t, error_bound_t, quantity_bound_t, uniqueness_t, &
@@ -261,7 +261,7 @@ contains
       up_to = 'nu = '//number(known%up_to_nu, 3)
       if (known%solutions > 1) then
          text = 'not the only solution: '//to_text(known%solutions - 1)//merge(' other ', ' others', known%solutions == 2)
-         text = trim(text)//' found from '//to_text(known%starts)//' starts'
+         text = trim(text)//' found from '//plural(known%starts, 'start', 'starts')
       else if (known%index < 0) then
          text = 'not the only solution: its index is -1'
       else if (known%up_to_nu >= known%nu) then
@@ -270,7 +270,7 @@ contains
          text = 'not proved'
          if (known%up_to_nu > 0.0_wp) text = text//' beyond '//up_to
          if (known%solutions == 1) then
-            text = text//'; '//to_text(known%starts)//' starts find no other solution'
+            text = text//'; '//plural(known%starts, 'start finds', 'starts find')//' no other solution'
          else if (len_trim(known%why_not) > 0) then
             text = text//': '//trim(known%why_not)
          else if (known%same_way_up_to_nu >= known%nu) then
