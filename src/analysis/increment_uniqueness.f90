@@ -23,10 +23,7 @@ contains
       if (.not. allocated(data%flexibility)) then
          if (.not. allocated(data%certificate)) then
             allocate (data%certificate)
-            associate (is_asked => data%starts > 0, known => data%certificate%known)
-               call certify_scene(data%fem, data%rows, data%line, is_asked .and. .not. data%is_distributed, data%certificate)
-               if (is_asked .and. data%is_distributed) known%why_not = 'a scene over several processes: --share none'
-            end associate
+            call certify_scene(data%fem, data%rows, data%line, data%starts > 0, data%certificate)
          end if
          results%uniqueness = data%certificate%known
       else
