@@ -170,7 +170,8 @@ contains
       type(model_t), intent(in) :: model
       type(status_t), intent(inout) :: status
 
-      if (.not. is_ok(status) .or. size(command%bound) == 0) return
+      if (.not. (is_ok(status) .and. allocated(command%bound))) return
+      if (size(command%bound) == 0) return
       if (command%proof == 'off') call set_status(status, STATUS_USAGE, '--bound asks for a proof, which --proof off excludes')
       if (model%restart_every > 0 .or. allocated(command%restart)) then
          call set_status(status, STATUS_USAGE, '--bound: not with *RESTART and --restart, whose files have no bounds')
