@@ -245,6 +245,7 @@ contains
       q = scene%line%weight*solution%p
       allocate (reaction, mold=dual%u)
       reaction = -scene%f
+      energy = 0.0_wp                                  ! is not asked for
       call internal_forces(dual%fem, dual%u, reaction, energy)
       call add_bilateral_forces(scene%rows, [(.true., j=1, scene%rows%n_bilateral)], q, reaction)
       where (.not. scene%held) reaction = 0.0_wp
