@@ -58,9 +58,7 @@ contains
             if (.not. all(is_still(pack(of_row, of_row > 0)))) cycle
             if (abs(solution%state%q(i)) > NONE_OF_HAD*maxval(data%had%force(pack(of_row, of_row > 0)))) cycle
          end associate
-         solution%state%q(i) = 0.0_wp
-         if (data%line%normal(j) == i) solution%p(j) = 0.0_wp
-         if (data%line%tangential(j) == i) solution%t(j) = 0.0_wp
+         call clear_force(data, i, solution)
       end do
    end subroutine clear_what_is_left
 
@@ -89,11 +87,22 @@ contains
          associate (of_row => bodies_of_row(data%rows, j, data%fem%bodies%of_node))
             if (all(of_row == 0) .or. abs(solution%state%q(i)) > ROUND_OFF*minval(largest(of_row))) cycle
          end associate
-         solution%state%q(i) = 0.0_wp
-         if (data%line%normal(j) == i) solution%p(j) = 0.0_wp
-         if (data%line%tangential(j) == i) solution%t(j) = 0.0_wp
+         call clear_force(data, i, solution)
       end do
    end subroutine clear_round_off
+
+   !> The force of an unknown, and the stress of its point with it.
+   pure subroutine clear_force(data, i, solution)
+      type(scene_data_t), intent(in) :: data
+      integer(ip), intent(in) :: i                           !< unknown force
+      type(contact_solution_t), intent(inout) :: solution
+
+      solution%state%q(i) = 0.0_wp
+      associate (j => data%line%point(i))
+         if (data%line%normal(j) == i) solution%p(j) = 0.0_wp
+         if (data%line%tangential(j) == i) solution%t(j) = 0.0_wp
+      end associate
+   end subroutine clear_force
 
    !> What is worth its time where it is printed: sums by joint, stresses and their error, the largest of all, the limits of
    !> a linear theory.
