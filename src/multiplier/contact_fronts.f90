@@ -27,11 +27,11 @@
 !> that the last stuck points hold would fly. So the number of solves does not grow with the number of points.
 !>
 !> The friction bound is frozen while more than FEW_CHANGES of the points change, as in the Picard loop. Then bound and forces are
-!> made to agree with the states (atrito_held_states), nearly while these change, and to the tolerance where they do not. Rows whose
-!> states follow each other in a circle come out of it as the one that is furthest off its law changes first
-!> (furthest_off_first). What is found is a start for the steps of the multipliers, which go to the last digit and ask whether the
-!> states are right. Where states do not come to rest they take the solve after which the law asked for the fewest changes; where
-!> these are more than NEAR of the points (bodies that nothing holds while all slips, say), they begin without.
+!> made to agree with the states (atrito_held_states), nearly where these change, and to the tolerance where they do not. Of the
+!> changes that the law asks for some wait (atrito_state_changes). What is found is a start for the steps of the multipliers, which
+!> go to the last digit and ask whether the states are right. Where states do not come to rest they take the solve after which the
+!> law asked for the fewest changes; where these are more than NEAR of the points (bodies that nothing holds while all slips, say),
+!> they begin without.
 module atrito_contact_fronts
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_sparse_rows, only: multiply_rows
@@ -40,8 +40,9 @@ module atrito_contact_fronts
    use atrito_contact_system, only: contact_system_t
    use atrito_held_states, only: held_states_t, hold_states, agree, take_agreed
    use atrito_kinds, only: ip, wp
-   use atrito_multiplier_step, only: residual_of, provide_factor, largest_of_pairs, set_held_forces
+   use atrito_multiplier_step, only: residual_of, provide_factor, set_held_forces
    use atrito_multipliers, only: multiplier_t
+   use atrito_state_changes, only: states_of_law, keep_held, furthest_off_first
    use atrito_solve_history, only: solve_history_t, record_solve
    use atrito_status, only: status_t, is_ok, STATUS_SINGULAR
    implicit none (type, external)
@@ -59,13 +60,9 @@ module atrito_contact_fronts
    integer(ip), parameter :: MANY_POINTS = 100_ip  !< for which it is worth it
    integer(ip), parameter :: MOST_SOLVES = 60_ip
    integer(ip), parameter :: MOST_IN_VAIN = 10_ip  !< of them, since fewer points changed than in each of the three before
-   integer(ip), parameter :: TO_AND_FRO = 3_ip
-   integer(ip), parameter :: SPACING = 5_ip
    real(wp), parameter :: NEAR = 0.05_wp           !< of the points may still change in a start
    integer(ip), parameter :: LOOKS_AHEAD = 8_ip    !< points that do not change, before those that do are looked for no more
    real(wp), parameter :: FEW_CHANGES = 0.1_wp     !< of the points: the friction bound may follow
-   real(wp), parameter :: AGREE_NEARLY = 0.1_wp    !< what may be left of forces and bound while states change, of the largest
-   real(wp), parameter :: NO_EXCESS = 1.0e-10_wp   !< of the largest force of the pair
 
 contains
 
@@ -77,8 +74,8 @@ contains
    end function has_many_points
 
    !> States, friction bound, forces and displacements near a solution. found: whether the states came to rest, or nearly
-   !> (multipliers%changed); else all
-   !> is as it was, as it is where a matrix of states that were tried is singular. status: that of system%factor but for that.
+   !> (multipliers%changed); else all is as it was, as it is where a matrix of states that were tried is singular. status: that of
+   !> system%factor but for that.
    subroutine find_fronts(system, shape, line, tolerance, multipliers, solution, found, status)
       class(contact_system_t), intent(inout) :: system !< A, B, loads, flexibilities
       type(bound_qp_t), intent(in) :: shape   !< numbers of unknowns and weights
@@ -94,7 +91,7 @@ contains
       real(wp) :: beyond(system%rows%n, AT_LOWER:AT_UPPER)
       integer(ip) :: solves, changes, last(3), since ! changes of the last solves; solves since there were fewer
       real(wp) :: noise(system%rows%n)
-      logical :: follows, agrees
+      logical :: follows, agrees, kept(system%rows%n)
       type(held_states_t) :: held
 
       begun = place_of(multipliers, solution)
@@ -103,6 +100,7 @@ contains
       call multiply_rows(system%rows, multipliers%x, multipliers%e, noise)
       multipliers%e = multipliers%e + system%g0
       turns = 0
+      kept = .false.
       last = huge(last)
       since = 0
       do solves = 1, MOST_SOLVES
@@ -125,19 +123,13 @@ contains
             best%changes = changes
          end if
          found = changes == 0 .and. follows
-         if (found .and. agrees) call agree(system, shape, line, multipliers, tolerance, held, agrees)
-         if (found .and. agrees) then
-            call take_agreed(shape, line, held, multipliers, solution)
-            raw = states_of_law(system, shape, solution%bounds, multipliers, solution%state, before)
-            changes = count(raw /= before, kind=ip)
-            found = changes == 0
-         end if
          follows = changes <= FEW_CHANGES*line%n
          solution%state%state = raw
          beyond(:, AT_LOWER) = solution%bounds%lower - solution%state%q
          beyond(:, AT_UPPER) = solution%state%q - solution%bounds%upper
          call move_fronts(line, line%normal, before, raw, solution%state%state, normal, beyond)
          call move_fronts(line, line%tangential, before, raw, solution%state%state, tangential, beyond)
+         call keep_held(system, before, beyond, kept, solution%state%state)
          call furthest_off_first(system, line, solution%bounds, before, turns, normal, tangential, solution%state)
          where (solution%state%state /= before) turns = turns + 1
          since = merge(0_ip, since + 1_ip, all(changes < last))
@@ -156,7 +148,7 @@ contains
       subroutine follow_bound()
          agrees = .false.
          if (follows) call hold_states(system, line, multipliers, solution, held)
-         if (follows) call agree(system, shape, line, multipliers, AGREE_NEARLY, held, agrees)
+         if (follows) call agree(system, shape, line, multipliers, tolerance, held, agrees)
          if (agrees) call take_agreed(shape, line, held, multipliers, solution)
          if (agrees) return
          multipliers%a_old = multipliers%x(system%n - system%k + 1:)
@@ -221,127 +213,6 @@ contains
       call set_held_forces(system, bounds, multipliers, state)
 
    end subroutine solve_with_states
-
-   !> The state that the law gives each row, from that which it was solved with.
-   !>
-   !> A slipping point that ought to slip the other way sticks first: what it does then the next solve tells. A point that has
-   !> friction again, since it closes, slips at first, as it does now: stuck amid a zone of slip it would bear the shear of all
-   !> of it.
-   function states_of_law(system, shape, bounds, multipliers, state, before) result(raw)
-      class(contact_system_t), intent(in) :: system
-      type(bound_qp_t), intent(in) :: shape
-      type(box_bounds_t), intent(in) :: bounds   !< with the friction bound of the next solve
-      type(multiplier_t), intent(in) :: multipliers
-      type(box_state_t), intent(in) :: state     !< q and r of the solve; states with points FROZEN that have no friction now
-      integer(ip), intent(in) :: before(:)       !< (m) states of the solve
-      integer(ip) :: raw(size(before)), i
-      real(wp) :: force, slip, largest(multipliers%n_pairs)
-
-      largest = largest_of_pairs(multipliers, abs(state%q))
-      do i = 1, size(before, kind=ip)
-         force = NO_EXCESS*largest(multipliers%pair(i))
-         slip = force*(bounds%d(i) + system%flexibility(i))
-         raw(i) = before(i)
-         if (i > shape%n_normal .and. state%state(i) == FROZEN) then
-            raw(i) = FROZEN
-         else if (before(i) == FROZEN .and. i > shape%n_normal) then
-            raw(i) = merge(AT_UPPER, AT_LOWER, state%r(i) >= 0.0_wp)
-         else if (before(i) == FREE) then
-            if (state%q(i) < bounds%lower(i) - force) raw(i) = AT_LOWER
-            if (state%q(i) > bounds%upper(i) + force) raw(i) = AT_UPPER
-         else if (before(i) == AT_LOWER) then
-            if (state%r(i) > slip) raw(i) = FREE
-         else if (before(i) == AT_UPPER) then
-            if (state%r(i) < -slip) raw(i) = FREE
-         end if
-      end do
-   end function states_of_law
-
-   !> Of rows that change to and fro the one that is furthest off its law changes, and the others wait.
-   !>
-   !> What one point changes, the points beside it feel most: if all of them change at once, each goes too far, and comes back. A
-   !> row waits for its neighbours from its second change on, one that a front takes along from TO_AND_FRO on: fronts go too far and
-   !> return. A block that slips at all of its points flies, and sticks at all of them in the next solve: from TO_AND_FRO changes on
-   !> a row waits for all the rows of the bodies that it joins. It is off by the way that its excess of force would go, or by the
-   !> gap or slip that ought not to be. Where each point is less far off than the one before, every SPACING-th goes: a long run
-   !> would else turn point by point.
-   subroutine furthest_off_first(system, line, bounds, before, turns, normal, tangential, state)
-      class(contact_system_t), intent(in) :: system
-      type(contact_line_t), intent(in) :: line
-      type(box_bounds_t), intent(in) :: bounds
-      integer(ip), intent(in) :: before(:)       !< (m) states of the solve
-      integer(ip), intent(in) :: turns(:)        !< (m) changes of each row so far
-      integer(ip), intent(in) :: normal(:), tangential(:) !< (points) how far a front went that has passed it, else 0
-      type(box_state_t), intent(inout) :: state  !< q and r of the solve; states of the next one
-      integer(ip) :: often(size(before)), j
-      real(wp) :: off(0:size(before)), of_point(line%n), of_body(system%n_bodies), most
-      integer(ip) :: left(line%n), right(line%n) ! steps down from the last point that goes
-
-      often = 1
-      often(pack(line%normal, normal > 0)) = TO_AND_FRO
-      often(pack(line%tangential, tangential > 0)) = TO_AND_FRO
-      off(0) = -1.0_wp                           ! of a point without the unknown
-      off(1:) = merge((bounds%d + system%flexibility)*max(bounds%lower - state%q, state%q - bounds%upper, 0.0_wp), abs(state%r), &
-                      before == FREE)
-      where (state%state == before .or. turns < often) off(1:) = -1.0_wp
-      of_body = -1.0_wp
-      do j = 1, size(before, kind=ip)
-         if (turns(j) >= TO_AND_FRO) call raise_bodies(j)
-      end do
-      do j = 1, size(before, kind=ip)
-         if (turns(j) >= TO_AND_FRO) call wait(j, most_of_bodies(j))
-      end do
-      of_point = max(off(line%normal), off(line%tangential))
-      left = 0
-      right = 0
-      do j = 2, line%n
-         if (is_neighbour(j - 1, j) .and. of_point(j - 1) > of_point(j)) left(j) = modulo(left(j - 1) + 1, SPACING)
-      end do
-      do j = line%n - 1, 1, -1
-         if (is_neighbour(j, j + 1) .and. of_point(j + 1) > of_point(j)) right(j) = modulo(right(j + 1) + 1, SPACING)
-      end do
-      do j = 1, line%n
-         most = merge(of_point(j), huge(most), left(j) == 0 .and. right(j) == 0)
-         call wait(line%normal(j), most)
-         call wait(line%tangential(j), most)
-      end do
-
-   contains
-
-      !> A row that may have to wait, and is less far off than another one.
-      subroutine wait(i, most)
-         integer(ip), intent(in) :: i
-         real(wp), intent(in) :: most
-
-         if (off(i) >= 0.0_wp .and. off(i) < most) state%state(i) = before(i)
-      end subroutine wait
-
-      !> What the row i is off counts for the bodies that it joins.
-      subroutine raise_bodies(i)
-         integer(ip), intent(in) :: i
-         integer(ip) :: k
-
-         do k = system%rows%first(i), system%rows%first(i + 1) - 1
-            associate (of => of_body(system%body(system%rows%column(k))))
-               of = max(of, off(i))
-            end associate
-         end do
-      end subroutine raise_bodies
-
-      pure real(wp) function most_of_bodies(i)
-         integer(ip), intent(in) :: i
-
-         most_of_bodies = maxval(of_body(system%body(system%rows%column(system%rows%first(i):system%rows%first(i + 1) - 1))))
-      end function most_of_bodies
-
-      pure logical function is_neighbour(left, right)
-         integer(ip), intent(in) :: left, right
-
-         is_neighbour = .true.
-         if (allocated(line%pair)) is_neighbour = line%pair(left) == line%pair(right)
-      end function is_neighbour
-
-   end subroutine furthest_off_first
 
    !> Moves the fronts: where points of two states are neighbours, and those of one side would be in the state of the other.
    pure subroutine move_fronts(line, unknown, before, raw, new, went, beyond)

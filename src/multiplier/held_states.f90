@@ -22,6 +22,7 @@ module atrito_held_states
    use atrito_kinds, only: ip, wp, HUGE_REAL
    use atrito_multiplier_step, only: largest_of_pairs, pull_of, rho_of
    use atrito_multipliers, only: multiplier_t
+   use atrito_state_changes, only: states_of_law
    use atrito_sparse_rows, only: multiply_rows, add_transposed
    implicit none (type, external)
    private
@@ -40,6 +41,7 @@ module atrito_held_states
    end type held_states_t
 
    real(wp), parameter :: ENOUGH = 1.0e-3_wp      !< of what was left at first; round-off may be above the tolerance
+   real(wp), parameter :: NEARLY = 0.3_wp         !< what may be left where states change, of the largest
    real(wp), parameter :: DIVERGES = 10.0_wp      !< times the least that was left
    integer(ip), parameter :: MOST_SOLVES = 30_ip
    integer(ip), parameter :: PATIENCE = 4_ip      !< solves without less than half of what was left
@@ -78,7 +80,8 @@ contains
       where (held%unit <= 0.0_wp) held%unit = 1.0_wp
    end subroutine hold_states
 
-   !> Goes on until no more than the tolerance is left of G(z) - z. agrees: it is so, or a thousandth is left of what was at first.
+   !> Goes on until no more than the tolerance is left of G(z) - z, or NEARLY nothing where the law asks for other states. agrees:
+   !> it is so, or a thousandth is left of what was at first.
    subroutine agree(system, shape, line, multipliers, tolerance, held, agrees)
       class(contact_system_t), intent(in) :: system
       type(bound_qp_t), intent(in) :: shape
@@ -92,6 +95,7 @@ contains
       real(wp), dimension(size(held%unit)) :: z, g, next
       real(wp) :: left, least
       integer(ip) :: m, solves, since
+      logical :: stands
 
       agrees = .false.
       if (any(held%tau >= HUGE_REAL)) return
@@ -107,8 +111,11 @@ contains
          if (held%first < 0.0_wp) held%first = left
          since = merge(0_ip, since + 1_ip, left < 0.5_wp*least)
          least = min(left, least)
-         agrees = left <= max(tolerance, ENOUGH*held%first)
-         if (left <= tolerance .or. left > DIVERGES*least .or. since >= PATIENCE .or. solves == MOST_SOLVES) return
+         stands = left > NEARLY
+         if (.not. stands) stands = is_law()
+         agrees = left <= max(tolerance, ENOUGH*held%first) .or. .not. stands
+         if (left <= tolerance .or. .not. stands .or. left > DIVERGES*least .or. since >= PATIENCE) return
+         if (solves == MOST_SOLVES) return
          call held%anderson%update(z, g, next)
          next = held%unit*next
          held%q_o = merge(next(:m), held%state%q, held%state%state == FREE)
@@ -129,6 +136,17 @@ contains
       end do
 
    contains
+
+      !> Whether the law leaves all states as they are, with the bound of these forces.
+      logical function is_law()
+         type(box_bounds_t) :: bounds
+         type(box_state_t) :: state
+
+         bounds = held%bounds
+         state = held%state
+         call set_friction_bounds(line, shape, friction_bound(line, pressure_of(line, state%q)), bounds, state)
+         is_law = all(states_of_law(system, shape, bounds, multipliers, state, held%state%state) == held%state%state)
+      end function is_law
 
       !> FREE rows obey their law, the others have the force of their bound.
       subroutine set_forces()
