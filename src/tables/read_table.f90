@@ -252,8 +252,9 @@ contains
          last = end_of_line(table%text, first)
          associate (line => table%text(first:last))
             if (is_row(line, .false.)) n_rows = n_rows + 1
-            if (line(:min(len(line), len(MARK_COLUMNS))) == MARK_COLUMNS) &
+            if (line(:min(len(line), len(MARK_COLUMNS))) == MARK_COLUMNS) then
                call read_names(line(len(MARK_COLUMNS) + 1:), table%columns)
+            end if
          end associate
          first = last + 2
       end do
