@@ -105,17 +105,20 @@ forget_moved_build() {
    rm -rf "$1"
 }
 
-# build_preset NAME: configures build/NAME where that was not done, or for other presets, and builds what has changed.
+# build_preset NAME [OPTION=ON|OFF]: configures build/NAME where that was not done, or for other presets, or with another value of the
+# option, and builds what has changed.
 build_preset() {
    preset=$1
+   option=${2:-}
    log=$top/build/$preset.log
    mkdir -p "$top/build"
    forget_moved_build "$top/build/$preset"
    if [ ! -f "$top/build/$preset/CMakeCache.txt" ] || [ ! -f "$top/build/$preset/Makefile" ] ||
-      [ -n "$(find "$top/CMakePresets.json" -newer "$top/build/$preset/CMakeCache.txt" 2>/dev/null)" ]; then
+      [ -n "$(find "$top/CMakePresets.json" -newer "$top/build/$preset/CMakeCache.txt" 2>/dev/null)" ] ||
+      { [ -n "$option" ] && ! grep -qxF "${option%=*}:BOOL=${option#*=}" "$top/build/$preset/CMakeCache.txt"; }; then
       need_cmake
       say "configuring build/$preset"
-      (cd "$top" && cmake --preset "$preset") >"$log" 2>&1 || show_log "configuring failed"
+      (cd "$top" && cmake --preset "$preset" ${option:+"-D$option"}) >"$log" 2>&1 || show_log "configuring failed"
       say "building (about a minute)"
    fi
    (cd "$top" && cmake --build "build/$preset" -j "$(nproc 2>/dev/null || echo 2)") >>"$log" 2>&1 ||

@@ -269,14 +269,14 @@ contains
       kind_a = a%kind(at_a(1), at_a(2))
       kind_b = b%kind(at_b(1), at_b(2))
       if (kind_a == ITEM_NAN .and. kind_b == ITEM_NAN) return
-      text = item_text(a, at_a(1), at_a(2))//' / '//item_text(b, at_b(1), at_b(2))
+      text = ''                                     ! what is told of a difference
       if (is_number(kind_a) .and. is_number(kind_b)) then
          ! halves, since the difference of two huge numbers overflows
          half_difference = abs(0.5_wp*a%value(at_a(1), at_a(2)) - 0.5_wp*b%value(at_b(1), at_b(2)))
          half_allowed = 0.0_wp
          if (.not. exact) half_allowed = rule%rtol*(0.5_wp*scale) + 0.5_wp*rule%atol
          if (half_difference <= half_allowed) return
-         if (half_difference < 0.25_wp*huge(half_difference)) text = text//', differ by '//to_text(2.0_wp*half_difference, 3)
+         if (half_difference < 0.25_wp*huge(half_difference)) text = ', differ by '//to_text(2.0_wp*half_difference, 3)
          if (exact) then
             text = text//', must be equal'
          else
@@ -285,7 +285,8 @@ contains
       else if (kind_a == ITEM_WORD .and. kind_b == ITEM_WORD) then
          if (item_text(a, at_a(1), at_a(2)) == item_text(b, at_b(1), at_b(2))) return
       end if
-      call report(comparison, a%name//', '//row_name(a, at_a(2))//', '//name//': '//text)
+      call report(comparison, a%name//', '//row_name(a, at_a(2))//', '//name//': '//item_text(a, at_a(1), at_a(2))//' / '// &
+                  item_text(b, at_b(1), at_b(2))//text)
    end subroutine compare_items
 
    !> `row 3, pair 1, point 3, s = 1e-1`

@@ -166,7 +166,7 @@ contains
       type(table_t), intent(in) :: table
       type(grid_t) :: grid
       real(wp), allocatable :: x(:)
-      integer(ip) :: least, greatest
+      integer(ip) :: least, greatest, row
       integer :: k
 
       call begin_grid(grid, 1, CELL//'least'//CELL//'at '//place_of(0_ip)//CELL//'greatest'//CELL//'at '//place_of(0_ip))
@@ -174,10 +174,16 @@ contains
       do k = 1, size(table%columns)
          if (table%columns(k)%kind /= KIND_REAL .or. any(table%columns(k)%name == ['x', 'y'])) cycle
          call fetch_reals(table, table%columns(k), 0_ip, x)
-         least = minloc(x, dim=1)                   ! a NaN only where all are
-         greatest = maxloc(x, dim=1)
-         if (least == 0) cycle
-         if (ieee_is_nan(x(least))) cycle           ! undefined everywhere
+         do least = 1, table%n_rows
+            if (.not. ieee_is_nan(x(least))) exit
+         end do
+         if (least > table%n_rows) cycle            ! undefined everywhere
+         greatest = least
+         do row = least + 1, table%n_rows
+            if (x(row) >= x(least) .and. x(row) <= x(greatest)) cycle
+            if (x(row) > x(greatest)) greatest = row
+            if (x(row) < x(least)) least = row      ! no NaN is either
+         end do
          call add_row(grid, table%columns(k)%name//' ['//table%columns(k)%dimension//']'//CELL//text_of(table, k, least)//CELL// &
                       place_of(least)//CELL//text_of(table, k, greatest)//CELL//place_of(greatest))
       end do

@@ -18,10 +18,11 @@ module atrito_number_text
    integer, parameter :: FRACTION_BITS = 53, BIAS = 1022
    integer(lp), parameter :: LAST_BIT = 2_lp**(FRACTION_BITS - 1)
    integer(lp), parameter :: MAGNITUDE = huge(0_lp)              !< all bits but the sign
-   integer, parameter :: ZERO = iachar('0'), EIGHT = 8
+   integer, parameter :: ZERO = iachar('0')
    integer :: i, j
    integer(lp), parameter :: TEN_TO(0:MOST_DIGITS) = [(10_lp**i, i=0, MOST_DIGITS)]
    character(len=2), parameter :: PAIR(0:99) = [((achar(ZERO + i)//achar(ZERO + j), j=0, 9), i=0, 9)]
+   character(len=4), parameter :: QUAD(0:9999) = [((PAIR(i)//PAIR(j), j=0, 99), i=0, 99)]
    character(len=4), parameter :: POWER_TEXT(-MOST_POWER:MOST_POWER) = &
                                   [('e-'//PAIR(-i), i=-MOST_POWER, -1), ('e+'//PAIR(i), i=0, MOST_POWER)]
 
@@ -59,8 +60,6 @@ contains
       call find_digits(bits_of(x), digits, mantissa, exponent_of_ten, decided)
       if (.not. decided) then
          call put_real_slowly(x, digits, field)
-      else if (digits == DEFAULT_DIGITS) then
-         call lay_out(x < 0.0_wp, mantissa, DEFAULT_DIGITS, exponent_of_ten, field)   ! lengths that the compiler knows
       else
          call lay_out(x < 0.0_wp, mantissa, digits, exponent_of_ten, field)
       end if
@@ -73,30 +72,28 @@ contains
       integer, intent(in) :: digits                !< LEAST_DIGITS..MOST_DIGITS
       integer, intent(in) :: first, last           !< the field, at least real_width(digits) wide
       character(len=*), intent(inout) :: lines(:)  !< (size(x))
-      integer(ip) :: i
+      integer(lp) :: least, bits, before
+      integer :: from, to                          !< first and last, which `lines` might change for all the compiler knows
+      integer(ip) :: i, latest                     !< of the rows, that of the number that was written last
 
-      if (size(x) == 0) return
-      call fill_real_or_zero(x(1), smallest, digits, lines(1) (first:last))
-      do i = 2, size(x, kind=ip)
-         if (transfer(x(i), 0_lp) == transfer(x(i - 1), 0_lp)) then
-            lines(i) (first:last) = lines(i - 1) (first:last)
+      least = max(bits_of(smallest), 1_lp)
+      before = 0_lp
+      from = first
+      to = last
+      latest = 1
+      do i = 1, size(x, kind=ip)
+         bits = transfer(x(i), 0_lp)
+         if (iand(bits, MAGNITUDE) < least) then
+            lines(i) (to:to) = '0'
+         else if (bits == before) then
+            lines(i) (from:to) = lines(latest) (from:to)
          else
-            call fill_real_or_zero(x(i), smallest, digits, lines(i) (first:last))
+            latest = i
+            call put_real(x(i), digits, lines(i) (from:to))
          end if
+         before = bits
       end do
    end subroutine put_reals
-
-   pure subroutine fill_real_or_zero(x, smallest, digits, field)
-      real(wp), intent(in) :: x, smallest
-      integer, intent(in) :: digits
-      character(len=*), intent(inout) :: field
-
-      if (bits_of(x) == 0_lp .or. bits_of(x) < bits_of(smallest)) then
-         field(len(field):len(field)) = '0'
-      else
-         call put_real(x, digits, field)
-      end if
-   end subroutine fill_real_or_zero
 
    !> Writes a column of integers: one to a field, which is blank, of each line.
    pure subroutine put_integers(list, first, last, lines)
@@ -105,11 +102,9 @@ contains
       character(len=*), intent(inout) :: lines(:)  !< (size(list))
       integer(ip) :: i
 
-      if (size(list) == 0) return
-      call put_integer(list(1), lines(1) (first:last))
-      do i = 2, size(list, kind=ip)
-         if (list(i) == list(i - 1)) then
-            lines(i) (first:last) = lines(i - 1) (first:last)
+      do i = 1, size(list, kind=ip)
+         if (list(i) >= 0 .and. list(i) <= 9) then
+            lines(i) (last:last) = achar(ZERO + list(i))
          else
             call put_integer(list(i), lines(i) (first:last))
          end if
@@ -206,15 +201,16 @@ contains
       decided = exponent_of_ten + 1 < MOST_POWER .and. digits - 1 - exponent_of_ten <= MOST_POWER
       if (.not. decided) return                              ! zero, denormal, infinite and no numbers are among these
       significand = shiftl(ior(iand(bits, LAST_BIT - 1_lp), LAST_BIT), POWER_BITS - FRACTION_BITS)
-      k = exponent_of_ten + 1
-      ! where this POWER, which is rounded, cannot tell |x| from 10**k, the digits of both are the same
-      if (binary == POWER_SHIFT(k) + POWER_BITS .and. significand >= POWER(k)) exponent_of_ten = k
-      k = digits - 1 - exponent_of_ten
-      upper = int(shiftr(int(significand, XP)*int(POWER(k), XP), POWER_BITS), lp)
-      shift = -binary - POWER_SHIFT(k)
-      half = shiftl(1_lp, shift - 1)
-      decided = abs(iand(upper, 2_lp*half - 1_lp) - half) > DOUBT
-      mantissa = shiftr(shiftr(upper, shift - 1) + 1_lp, 1)
+      do                                                     ! a second time where the exponent was too small
+         k = digits - 1 - exponent_of_ten
+         upper = int(shiftr(int(significand, XP)*int(POWER(k), XP), POWER_BITS), lp)
+         shift = -binary - POWER_SHIFT(k)
+         half = shiftl(1_lp, shift - 1)
+         decided = iand(upper - half + DOUBT, 2_lp*half - 1_lp) > 2_lp*DOUBT
+         mantissa = shiftr(shiftr(upper, shift - 1) + 1_lp, 1)
+         if (mantissa <= TEN_TO(digits)) exit
+         exponent_of_ten = exponent_of_ten + 1
+      end do
       if (mantissa == TEN_TO(digits)) then
          mantissa = TEN_TO(digits - 1)
          exponent_of_ten = exponent_of_ten + 1
@@ -254,47 +250,32 @@ contains
       integer(lp), intent(in) :: mantissa
       integer, intent(in) :: digits, exponent_of_ten
       character(len=*), intent(inout) :: field     !< at least real_width(digits) long
-      character(len=3*EIGHT) :: text
-      integer :: last, point
+      character(len=1) :: first
+      integer(lp) :: rest, upper
+      integer :: lower, middle, last, point, i
 
-      call put_digits(mantissa, digits, text)
       last = len(field) - len(POWER_TEXT)
       point = last - digits + 1
       field(last + 1:last + len(POWER_TEXT)) = POWER_TEXT(exponent_of_ten)
-      field(point + 1:point + digits - 1) = text(len(text) - digits + 2:len(text))
+      if (digits == DEFAULT_DIGITS) then
+         upper = mantissa/TEN_TO(8)
+         lower = int(mantissa - upper*TEN_TO(8))
+         middle = lower/size(QUAD)
+         field(last - 3:last) = QUAD(lower - middle*size(QUAD))
+         field(last - 7:last - 4) = QUAD(middle)
+         field(last - 8:last - 8) = PAIR(upper) (2:2)
+         first = PAIR(upper) (1:1)
+      else
+         rest = mantissa
+         do i = last, point + 1, -1
+            field(i:i) = achar(ZERO + int(mod(rest, 10_lp)))
+            rest = rest/10_lp
+         end do
+         first = achar(ZERO + int(rest))
+      end if
       field(point:point) = '.'
-      field(point - 1:point - 1) = text(len(text) - digits + 1:len(text) - digits + 1)
+      field(point - 1:point - 1) = first
       if (negative) field(point - 2:point - 2) = '-'
    end subroutine lay_out
-
-   !> The digits of a number at the end of a text.
-   pure subroutine put_digits(number, digits, text)
-      integer(lp), intent(in) :: number            !< 0 .. 10**digits - 1
-      integer, intent(in) :: digits
-      character(len=3*EIGHT), intent(out) :: text
-      integer(lp) :: upper
-
-      upper = number/TEN_TO(EIGHT)
-      call put_eight(int(number - upper*TEN_TO(EIGHT)), text(2*EIGHT + 1:))
-      if (digits <= EIGHT + 2) then
-         text(2*EIGHT - 1:2*EIGHT) = PAIR(upper)
-      else
-         call put_eight(int(mod(upper, TEN_TO(EIGHT))), text(EIGHT + 1:2*EIGHT))
-         call put_eight(int(upper/TEN_TO(EIGHT)), text(:EIGHT))
-      end if
-   end subroutine put_digits
-
-   pure subroutine put_eight(number, text)
-      integer, intent(in) :: number                !< 0 .. 99999999
-      character(len=EIGHT), intent(out) :: text
-      integer :: upper, lower
-
-      upper = number/10000
-      lower = number - 10000*upper
-      text(1:2) = PAIR(upper/100)
-      text(3:4) = PAIR(mod(upper, 100))
-      text(5:6) = PAIR(lower/100)
-      text(7:8) = PAIR(mod(lower, 100))
-   end subroutine put_eight
 
 end module atrito_number_text

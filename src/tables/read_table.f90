@@ -85,7 +85,7 @@ contains
       table%text = text
       table%is_csv = index(name, CSV_ENDING, back=.true.) == max(1, len(name) - len(CSV_ENDING) + 1)
       allocate (table%columns(0))
-      if (index(text, achar(0)) > 0) then
+      if (place_of(achar(0), text, 1) <= len(text)) then
          call set_status(status, STATUS_FILE, 'is not a text file')
          return
       end if
@@ -131,9 +131,19 @@ contains
       character(len=*), intent(in) :: text
       integer, intent(in) :: first
 
-      last = index(text(first:), LINE_FEED)
-      last = merge(len(text), first + last - 2, last == 0)
+      last = place_of(LINE_FEED, text, first) - 1
    end function end_of_line
+
+   !> Where a character stands first, from `first` on; behind the text where it does not. `index` takes several times as long.
+   pure integer function place_of(character, text, first) result(i)
+      character(len=1), intent(in) :: character
+      character(len=*), intent(in) :: text
+      integer, intent(in) :: first
+
+      do i = first, len(text)
+         if (text(i:i) == character) exit
+      end do
+   end function place_of
 
    !> A line that is neither blank nor a comment; among comma-separated values there are none.
    pure logical function is_row(line, is_csv)
@@ -242,7 +252,9 @@ contains
          last = end_of_line(table%text, first)
          associate (line => table%text(first:last))
             if (is_row(line, .false.)) n_rows = n_rows + 1
-            if (index(line, MARK_COLUMNS) == 1) call read_names(line(len(MARK_COLUMNS) + 1:), table%columns)
+            if (line(:min(len(line), len(MARK_COLUMNS))) == MARK_COLUMNS) then
+               call read_names(line(len(MARK_COLUMNS) + 1:), table%columns)
+            end if
          end associate
          first = last + 2
       end do
@@ -289,13 +301,21 @@ contains
       character(len=*), intent(in) :: line
       integer, intent(inout) :: last
       integer, intent(out) :: first
-      integer :: n
 
-      n = verify(line(last + 1:), BLANKS)
-      first = merge(last + n, len(line) + 1, n > 0)
-      n = scan(line(first:), BLANKS)
-      last = merge(first + n - 2, len(line), n > 0)
+      do first = last + 1, len(line)
+         if (.not. is_blank(line(first:first))) exit
+      end do
+      do last = first, len(line) - 1
+         if (is_blank(line(last + 1:last + 1))) exit
+      end do
+      last = min(last, len(line))
    end subroutine next_item
+
+   pure logical function is_blank(letter)
+      character(len=1), intent(in) :: letter
+
+      is_blank = letter == ' ' .or. letter == TAB .or. letter == CARRIAGE_RETURN
+   end function is_blank
 
    subroutine read_row(table, begins, ends, line, status)
       type(table_file_t), intent(inout) :: table

@@ -1,13 +1,13 @@
 !> The quantities of a pair and of a step that summary.tab, the listing and the screen tell alike.
 module atrito_summary
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-   use atrito_kinds, only: ip, wp
+   use atrito_kinds, only: ip, lp, wp
    use atrito_page, only: number, plural
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_model, only: model_t
    use atrito_results, only: results_t, history_t, scene_t, contact_result_t, error_bound_t, quantity_bound_t, uniqueness_t, &
                              view_frame, POINT_OPEN, POINT_STICK, POINT_SLIP
-   use atrito_threads, only: is_shared
+   use atrito_threads, only: CHUNK_LENGTH
    implicit none (type, external)
    private
    public :: pair_summary_t, quantity_t, scales_t
@@ -320,9 +320,9 @@ contains
       type(scales_t) :: scales
       integer(ip) :: i
 
-      scales%length = largest(model%mesh%x)
-      if (allocated(results%u)) scales%displacement = largest(results%u)
-      if (allocated(results%reaction)) scales%force = largest(results%reaction)
+      scales%length = largest(size(model%mesh%x, kind=lp), model%mesh%x)
+      if (allocated(results%u)) scales%displacement = largest(size(results%u, kind=lp), results%u)
+      if (allocated(results%reaction)) scales%force = largest(size(results%reaction, kind=lp), results%reaction)
       scales%force = max(scales%force, maxval(abs(results%balance%applied)))
       do i = 1, pair_count(results)
          associate (contact => results%contact(i))
@@ -332,7 +332,7 @@ contains
          end associate
       end do
       scales%stress = scales%pressure
-      if (allocated(results%stress)) scales%stress = max(scales%stress, largest(results%stress))
+      if (allocated(results%stress)) scales%stress = max(scales%stress, largest(size(results%stress, kind=lp), results%stress))
       if (.not. allocated(results%extremes)) return
       associate (name => results%extremes%quantity)   ! no stress at a node is larger than the largest of these
          scales%nodal_stress = max(0.0_wp, maxval(abs(results%extremes%value), &
@@ -429,16 +429,15 @@ contains
    end function body_count
 
    !> Largest absolute value; 0 for an empty array.
-   real(wp) function largest(values)
-      real(wp), intent(in), contiguous :: values(:, :)
-      integer(ip) :: i, k
+   real(wp) function largest(n, values)
+      integer(lp), intent(in) :: n
+      real(wp), intent(in) :: values(n)            !< an array of any rank
+      integer(lp) :: i
 
       largest = 0.0_wp
-      !$omp parallel do default(none) private(k) shared(values) reduction(max:largest) if(is_shared(size(values, 2, kind=ip)))
-      do i = 1, size(values, 2, kind=ip)
-         do k = 1, size(values, 1, kind=ip)          ! maxval takes ten times as long with columns of two
-            largest = max(largest, abs(values(k, i)))
-         end do
+      !$omp parallel do default(none) shared(n, values) reduction(max:largest) if(n >= CHUNK_LENGTH)
+      do i = 1, n
+         largest = max(largest, abs(values(i)))
       end do
       !$omp end parallel do
    end function largest

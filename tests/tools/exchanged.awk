@@ -2,6 +2,7 @@
 FNR == NR {
    n++
    type[n] = $1; file[n] = $2; procedures[n] = "," $3 ","; variable[n] = $4; left_out[n] = "," $5 ","
+   has_procedures[$2] = 1
    has_rule[$2 ~ /^fields/ ? $1 : ""] = 1
    next
 }
@@ -39,6 +40,8 @@ in_type != "" && line ~ /::/ {
    for (i = 1; i <= m; i++) if (names[i] != "") note(in_type, names[i], kind)
    next
 }
+
+!(FILENAME in has_procedures) { next }
 
 line ~ /^ *(pure |elemental |recursive |impure |module )*(logical |integer\([a-z]+\) |real\([a-z]+\) |type\([a-z0-9_]+\) )*(subroutine|function) / {
    procedure = line

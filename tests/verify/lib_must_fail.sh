@@ -6,12 +6,12 @@ set -- none none none
 bad=0
 must_fail() {
    failures=0
-   "$@" >/dev/null 2>&1
+   { "$@"; judge_numbers; } >/dev/null 2>&1
    [ "$failures" -gt 0 ] || { echo "passed, but must fail: $*"; bad=1; }
 }
 must_pass() {
    failures=0
-   "$@" >/dev/null 2>&1
+   { "$@"; judge_numbers; } >/dev/null 2>&1
    [ "$failures" -eq 0 ] || { echo "failed, but must pass: $*"; bad=1; }
 }
 work=$(mktemp -d)
@@ -72,5 +72,7 @@ must_pass below x 0.5 1
 must_fail below x nan 1
 must_fail below x 2 1
 must_fail says x "$work/a" nothing
+must_fail eval 'near x 1 1 0; rm "$compared"'
+must_fail eval 'near x 1 1 0; near x 1 2 0; near x 1 1 0'
 must_fail absent "$work/a"
 exit $bad
