@@ -41,7 +41,7 @@ contains
       logical :: is_free, is_exact
 
       do i = 1, size(points, kind=ip)
-         if (.not. points(i)%sliding%exists .or. (rubs(i) .and. .not. points(i)%sliding%is_round)) cycle
+         if (.not. points(i)%sliding%exists) cycle
          b = fem%bodies%of_node(points(i)%entry([1_ip, points(i)%first(2) - 1])) ! of the first point: slave first, master last
          is_free = .false.
          is_exact = is_along(points(i)%sliding, fem%mesh, points(i))
@@ -51,8 +51,8 @@ contains
             motion = motion_of_body(points(i)%sliding, fem%bodies%list(b(k)))
             if (.not. is_left_free(motions_left(fem, bilateral, b(k)), motion)) cycle
             is_free = .true.
-            associate (sliding => points(i)%sliding)       ! along an axis rows are exact as they are
-               if (.not. sliding%is_round .and. any(abs(sliding%direction) <= 0.0_wp)) cycle
+            associate (sliding => points(i)%sliding)       ! along an axis rows are exact, and friction holds what the digits drive
+               if (.not. sliding%is_round .and. (rubs(i) .or. any(abs(sliding%direction) <= 0.0_wp))) cycle
                if (sliding%grain <= EXACT*sliding%extent) cycle
             end associate
             call add_motion(motion, fem%bodies%list(b(k)))
