@@ -54,7 +54,8 @@ contains
             motion = motion_of_body(points(i)%sliding, fem%bodies%list(b(k)))
             if (.not. is_left_free(motions_left(fem, bilateral, b(k)), motion)) cycle
             is_free = .true.
-            associate (sliding => points(i)%sliding)       ! along an axis rows are exact, and friction holds what the digits drive
+            ! along an axis rows are exact, and friction holds what the digits drive
+            associate (sliding => points(i)%sliding)
                if (.not. sliding%is_round .and. (rubs(i) .or. any(abs(sliding%direction) <= 0.0_wp))) cycle
                if (sliding%grain <= EXACT*sliding%extent) cycle
             end associate
@@ -64,7 +65,7 @@ contains
       end do
    end subroutine let_slide
 
-   !> Whether a body of a pair with straight sides is pressed from the other side as well, and what presses it on either side is held
+   !> Whether a body of a pair with straight sides is pressed from the other side as well, and what presses it on both sides is held
    !> by supports: rounding of coordinates would make that slot a wedge, whose forces no load bounds.
    logical function is_in_slot(fem, bilateral, points, i)
       type(fem_t), intent(in) :: fem
