@@ -339,8 +339,8 @@ contains
    !> diag(int phi h ds).
    !>
    !> All integrals are linear in psi, so those with the dual functions are A times those with phi. The weights stay: A has row sums
-   !> that keep them, sum_b A_ab D_bb = D_aa, since M 1 = D 1. Lengths and normals, means round the node, are those with phi.
-   !> int psi phi' h ds = A M = D, exactly.
+   !> that keep them, sum_b A_ab D_bb = D_aa, since M 1 = D 1. Lengths are those with phi. The normal int psi n h ds is the rate of
+   !> the gap in a translation, and that of the curve at the node. int psi phi' h ds = A M = D, exactly.
    subroutine make_dual(n, integrals)
       integer(ip), intent(in) :: n                  !< nodes of the face
       type(face_integrals_t), intent(inout) :: integrals !< of the face
@@ -357,6 +357,9 @@ contains
       a = transpose(a)
       integrals%gap(:n, 1) = matmul(a, integrals%gap(:n, 1))
       integrals%gap(:n, 2) = matmul(a, integrals%gap(:n, 2))
+      do k = 1, 2
+         integrals%normal(:, :n, k) = matmul(integrals%normal(:, :n, k), transpose(a))
+      end do
       integrals%master(:n, :integrals%n) = matmul(a, integrals%master(:n, :integrals%n))
       integrals%slave = 0.0_wp
       do k = 1, n

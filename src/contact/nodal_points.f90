@@ -226,7 +226,7 @@ contains
       type(revolved_face_t) :: face
       logical :: is_corner(size(points%s)), is_end(size(points%s))
       real(wp) :: s
-      integer(ip) :: i, j, k, of_node(3)
+      integer(ip) :: i, j, k, end, of_node(3)
 
       call smooth_surface(mesh, slave, ends, of_face, bend, grain)
       allocate (curvature(size(points%s)), source=0.0_wp)
@@ -244,7 +244,13 @@ contains
             of_node(k) = j
             if (points%length(j) > 0.0_wp) is_corner(j) = sine(points%normal(:, j)/norm2(points%normal(:, j)), &
                                                                rule%normal(:, k)) > CORNER
-            if (k == 1 .or. k == rule%n) is_end(j) = is_end(j) .or. is_end_of_side(mesh, slave, ends, i, merge(1_ip, 2_ip, k == 1))
+            if (k == 1 .or. k == rule%n) then
+               end = merge(1_ip, 2_ip, k == 1)
+               if (is_end_of_side(mesh, slave, ends, i, end)) then
+                  is_end(j) = .true.
+                  rule%normal(:, k) = ends(:, end, i)
+               end if
+            end if
             points%length(j) = points%length(j) + rule%weight(k)
             curvature(j) = curvature(j) + rule%weight(k)*of_face(i)
             if (face%n > 0) then

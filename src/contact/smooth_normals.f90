@@ -1,7 +1,8 @@
 !> Normals and curvature of a surface of element faces, as of the smooth curve that the faces stand for.
 !>
 !> Between two faces that meet at a node without a corner the curve has one tangent. The normal there is the mean of
-!> both faces' normals. The curvature of a face of length c is taken from the angles by which the normal turns:
+!> both faces' normals; where a chord is the last one it is that of the chord, turned by its angle with the curve. The curvature
+!> of a face of length c is taken from the angles by which the normal turns:
 !>
 !>     k = (turn along the face + mean of the turns at its joints)/c,
 !>
@@ -84,6 +85,7 @@ contains
          ends(:, 1, k) = ends(:, 2, i)
       end do
       call bend_chords(curvature, bend)
+      call turn_outer_ends(curvature, ends)
       turn = turn + joints/max(n_joints, 1_ip)
       joints = 0.0_wp                               ! of the turns, what is rounding
       if (present(grain)) then
@@ -109,6 +111,24 @@ contains
             if (inside(k)) bend(i) = flatter(2*sum(slope(:, i))*per_length(i), bend(k))
          end do
       end subroutine bend_chords
+
+      !> Where no face goes on, the normal of the curve is that of the chord turned by the angle atan(k c/2) at its end.
+      pure subroutine turn_outer_ends(per_length, ends)
+         real(wp), intent(in) :: per_length(:)         !< (faces) [1/L]
+         real(wp), intent(inout) :: ends(:, :, :)      !< (2, first and last end, faces)
+         real(wp) :: slope
+         integer(ip) :: i, k
+
+         do i = 1, size(per_length, kind=ip)
+            if (.not. is_chord(i)) cycle
+            do k = 1, 2
+               if (beside(k, i) /= 0) cycle
+               slope = merge(-0.5_wp, 0.5_wp, k == 1)*bend(i)/per_length(i)
+               ends(:, k, i) = ends(:, k, i) + slope*[-ends(2, k, i), ends(1, k, i)]
+               ends(:, k, i) = ends(:, k, i)/norm2(ends(:, k, i))
+            end do
+         end do
+      end subroutine turn_outer_ends
 
    end subroutine smooth_surface
 

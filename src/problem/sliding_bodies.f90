@@ -41,8 +41,11 @@ contains
       logical :: is_free, is_exact
 
       do i = 1, size(points, kind=ip)
-         if (.not. points(i)%sliding%exists .or. (rubs(i) .and. .not. points(i)%sliding%is_round)) cycle
-         b = fem%bodies%of_node(points(i)%entry([1_ip, points(i)%first(2) - 1])) ! of the first point: slave first, master last
+         if (.not. points(i)%sliding%exists) cycle
+         if (rubs(i) .and. .not. points(i)%sliding%is_round) then
+            if (.not. is_in_slot(fem, bilateral, points, i)) cycle
+         end if
+         b = bodies_of(fem, points(i))
          is_free = .false.
          is_exact = is_along(points(i)%sliding, fem%mesh, points(i))
          do k = 1, merge(1_ip, 2_ip, b(1) == b(2))
@@ -51,8 +54,9 @@ contains
             motion = motion_of_body(points(i)%sliding, fem%bodies%list(b(k)))
             if (.not. is_left_free(motions_left(fem, bilateral, b(k)), motion)) cycle
             is_free = .true.
-            associate (sliding => points(i)%sliding)       ! along an axis rows are exact as they are
-               if (.not. sliding%is_round .and. any(abs(sliding%direction) <= 0.0_wp)) cycle
+            ! along an axis rows are exact, and friction holds what the digits drive
+            associate (sliding => points(i)%sliding)
+               if (.not. sliding%is_round .and. (rubs(i) .or. any(abs(sliding%direction) <= 0.0_wp))) cycle
                if (sliding%grain <= EXACT*sliding%extent) cycle
             end associate
             call add_motion(motion, fem%bodies%list(b(k)))
@@ -60,6 +64,55 @@ contains
          if (is_free .and. .not. is_exact) call turn_points(points(i)%sliding, fem%mesh, points(i))
       end do
    end subroutine let_slide
+
+   !> Whether a body of a pair with straight sides is pressed from the other side as well, and what presses it on both sides is held
+   !> by supports: rounding of coordinates would make that slot a wedge, whose forces no load bounds.
+   logical function is_in_slot(fem, bilateral, points, i)
+      type(fem_t), intent(in) :: fem
+      type(bilateral_rows_t), intent(in) :: bilateral !< rows that hold a body along their directions
+      type(contact_points_t), intent(in) :: points(:) !< one a pair
+      integer(ip), intent(in) :: i                    !< pair
+      real(wp), parameter :: OPPOSITE = -0.5_wp
+      integer(ip) :: b(2), other(2), k, own, m
+
+      is_in_slot = .false.
+      b = bodies_of(fem, points(i))
+      do own = 1, 2
+         if (b(own) == 0) cycle
+         if (.not. is_held(b(3 - own), points(i)%normal(:, 1))) cycle
+         do k = 1, size(points, kind=ip)
+            if (.not. points(k)%sliding%exists .or. points(k)%sliding%is_round) cycle
+            other = bodies_of(fem, points(k))
+            m = findloc(other, b(own), dim=1, kind=ip) ! the normal is out of the slave, which is the first of both
+            if (m == 0) cycle
+            if (dot_product(points(i)%normal(:, 1), points(k)%normal(:, 1))*merge(1, -1, own == m) >= OPPOSITE) cycle
+            is_in_slot = is_held(other(3 - m), points(k)%normal(:, 1))
+            if (is_in_slot) return
+         end do
+      end do
+
+   contains
+
+      !> Whether supports hold a body in a direction; 0: a rigid surface.
+      logical function is_held(b, n)
+         integer(ip), intent(in) :: b                 !< body
+         real(wp), intent(in) :: n(2)                 !< unit vector
+
+         is_held = b == 0
+         if (.not. is_held) is_held = .not. is_left_free(motions_left(fem, bilateral, b), [n, 0.0_wp, ALL_BUT])
+      end function is_held
+
+   end function is_in_slot
+
+   !> The bodies of a pair: those of the first point's first node, which is the slave's, and of its last one; 0: a rigid surface.
+   pure function bodies_of(fem, points) result(b)
+      type(fem_t), intent(in) :: fem
+      type(contact_points_t), intent(in) :: points    !< of the pair
+      integer(ip) :: b(2)
+
+      b = fem%bodies%of_node(points%entry([1_ip, points%first(2) - 1]))
+      if (points%rigid) b(2) = 0
+   end function bodies_of
 
    !> A free body whose middle is all but the centre of the motion is turned about that one: its rotation then moves no row at all,
    !> where the distance between both would leave it the little of a translation, which no equation can be solved for.

@@ -119,4 +119,18 @@ for digits in 6 7 8 10 13; do
       near "$name: points that carry" "$(column "$name/contact.tab" pressure | awk '$1 > 0 { n++ } END { print n + 0 }')" 2 0
    done
 done
+# A block in a slot, whose friction holds 2 nu N = 60: a push of 50 it holds, and of one of 70 nothing but rounding, which makes the slot
+# narrower on one side, could hold it.
+for digits in 4 5 6 8 10 17; do
+   for angle in 0 30 57.3 114.6; do
+      for form in dense sparse; do
+         for force in 50 70; do
+            name=slot-$digits-$angle-$form-$force
+            awk -v digits=$digits -v angle=$angle -v nu=0.1 -v force=$force -f "$here/slot.awk" </dev/null >"$name.inp"
+            run "$([ $force = 50 ] && echo 0 || echo 3)" "$name.inp" "$name" --quiet --contact $form
+         done
+         near "slot-$digits-$angle-$form: forces" "$(summary "slot-$digits-$angle-$form-50" normal_resultant | sed 1q)" 300 "$(value "3000*10^(1 - $digits) + 1e-8")"
+      done
+   done
+done
 finish

@@ -74,8 +74,7 @@ for type in CPE4 CPE9; do
             before=$now
          done
          orders rings.txt $name $l2 $energy
-         # a quarter of four nodes: see the README
-         [ $type-$turn = CPE4-90 ] || near "$name: order of the pressure" "$order" $l2 0.1
+         near "$name: order of the pressure" "$order" $l2 0.1
       done
    done
 done
