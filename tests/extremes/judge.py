@@ -678,14 +678,15 @@ def balance_rows(bodies, owner, pairs):
 
 def stays_open(pair, j, owner):
     """Whether supports keep a point open: its motion along the normal is prescribed, and does not close its gap. (A pressure there
-    would cost the bodies nothing and give them friction.)"""
+    would cost the bodies nothing and give them friction.) Where contact is soft, touching is not enough: its pressure is then known
+    from the overlap, which is none."""
     overlap = -pair.gap0[j]
     for node, factor in pair.rows(j):
         body, i = owner[node], owner[node].index[node]
         if factor and (pair.normal[j]*~body.held[i]).any():
             return False
         overlap += factor*(body.value[i] @ pair.normal[j])
-    return overlap < -16*EPS*np.abs(pair.x).max()
+    return overlap < math.copysign(16*EPS*np.abs(pair.x).max(), 1 if pair.law.delta > 0 else -1)
 
 
 def friction_bounds(pairs):
