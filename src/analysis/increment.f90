@@ -9,6 +9,7 @@
 !>         finish_form              results, then the final check; a check that fails is judged as no solution is
 !>       solve_without_near         not solved, and elements that nearly equal were taken as equal: again, each by itself
 !>       climb                      not solved: the rungs of the ladder, one after the other, until one finds a solution
+!>       let_out                    not solved, and a motion is idle: out of a thin wedge that friction might hold
 !>
 !> A solution counts where the outer loop has converged and the final check, which knows nothing of how it was found, holds
 !> (is_solved). All attempts begin from the same results (begin_results), so an attempt that fails leaves no trace but its time.
@@ -73,6 +74,7 @@ contains
          call solve_without_near(data, controls, store, results, solution, status)
       end if
       if (is_ok(status) .and. .not. is_solved(results, status)) call climb(data, asked_form, controls, store, results, solution)
+      if (is_ok(status) .and. .not. is_solved(results, status)) call let_out(data, controls, store, results, solution)
       if (associated(data%viewer)) call data%viewer%view(data, results, solution)
       if (.not. data%keeps) call release_condensed(data, store)
       if (.not. is_solved(results, status)) call explain_range(data, results, status)
@@ -204,6 +206,8 @@ contains
       again = may_change
       call settle_idle_motions(data, u, data%before, solution, again)
       call stop_phase('recover')
+      if (again .or. solution%converged) return
+      call judge_outcome(data, results, solution, again, status)
    end subroutine solve_form
 
    !> The sparse form: all bodies in one matrix, which is assembled where it is not there.
@@ -268,6 +272,28 @@ contains
          return
       end do
    end subroutine climb
+
+   !> A thin wedge lets out what nothing presses into it. With friction it may hold it as well, which the rungs would have found:
+   !> now the least motion goes as far as it must. What is found counts as that of a rung does.
+   subroutine let_out(data, controls, store, results, solution)
+      type(scene_data_t), intent(inout) :: data
+      type(controls_t), intent(in) :: controls
+      type(body_cache_t), intent(inout) :: store
+      type(results_t), intent(inout) :: results
+      type(contact_solution_t), intent(inout) :: solution   !< of the first attempt
+      type(results_t) :: other
+      type(contact_solution_t) :: other_solution
+      type(status_t) :: status
+
+      if (.not. (data%line%has_friction .and. allocated(solution%inner%undetermined))) return
+      call begin_results(results, other)
+      data%lets_out = .true.
+      call solve_one_form(data, data%contact_form, controls, store, other, other_solution, status)
+      data%lets_out = .false.
+      if (.not. is_solved(other, status)) return
+      solution = other_solution
+      results = other
+   end subroutine let_out
 
    !> Scene, and place in the history, of another attempt.
    pure subroutine begin_results(results, other)
