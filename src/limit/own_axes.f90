@@ -16,7 +16,6 @@ module atrito_own_axes
    private
    public :: prove_in_own_axes
 
-   real(wp), parameter :: NO_LOAD = 1.0e-13_wp    !< of what was added up: round-off
    real(wp), parameter :: ROUND = 1.0e-6_wp       !< difference of both sums, over them, of a body with normals of all directions
 
 contains
@@ -44,8 +43,7 @@ contains
          if (.not. has_own(b)) cycle
          fem%bodies%list(b)%modes(:2, :2) = reshape([1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [2, 2])
          associate (k => first(b), nodes => fem%bodies%list(b)%nodes)
-            call measure_loads(axes(:, 1, b), f(:, nodes), own%work(k), own%work_size(k))
-            call measure_loads(axes(:, 2, b), f(:, nodes), own%work(k + 1), own%work_size(k + 1))
+            own%work_size(k:k + 1) = sum(abs(matmul(transpose(axes(:, :, b)), f(:, nodes))), dim=2) ! along them
          end associate
       end do
       call prove_balance(own, line, certificate, counts)
@@ -89,17 +87,5 @@ contains
          axes(:, 2, b) = [-sin(angle), cos(angle)]
       end do
    end subroutine find_axes
-
-   !> What forces work along an axis, and the sum of their parts without signs. The sum is none where it is round-off of the forces:
-   !> that of the coordinates turns them, too.
-   pure subroutine measure_loads(axis, f, work, work_size)
-      real(wp), intent(in) :: axis(2)
-      real(wp), intent(in) :: f(:, :)                 !< (2, nodes) [F]
-      real(wp), intent(out) :: work, work_size        !< [F]
-
-      work = sum(matmul(axis, f))
-      work_size = sum(abs(matmul(axis, f)))
-      if (abs(work) <= NO_LOAD*sum(norm2(f, dim=1))) work = 0.0_wp
-   end subroutine measure_loads
 
 end module atrito_own_axes
