@@ -9,6 +9,7 @@
 !>         finish_form              results, then the final check; a check that fails is judged as no solution is
 !>       solve_without_near         not solved, and elements that nearly equal were taken as equal: again, each by itself
 !>       climb                      not solved: the rungs of the ladder, one after the other, until one finds a solution
+!>       let_out                    not solved, and a motion is idle: out of a thin wedge that friction might hold
 !>
 !> A solution counts where the outer loop has converged and the final check, which knows nothing of how it was found, holds
 !> (is_solved). All attempts begin from the same results (begin_results), so an attempt that fails leaves no trace but its time.
@@ -63,6 +64,7 @@ contains
       type(contact_solution_t), intent(out) :: solution     !< of the attempt that counts
       type(status_t), intent(out) :: status                 !< STATUS_OK, STATUS_SINGULAR, STATUS_DECK or STATUS_INTERNAL
       type(controls_t) :: controls
+      integer :: idle_form                                  ! in which a motion was idle, but no solution
 
       controls = data%step%controls
       if (asked_form == CONTACT_AUTO) controls%most_entries = MOST_ENTRIES
@@ -72,7 +74,12 @@ contains
       if (results%scene%near_elements .and. .not. is_solved(results, status)) then
          call solve_without_near(data, controls, store, results, solution, status)
       end if
-      if (is_ok(status) .and. .not. is_solved(results, status)) call climb(data, asked_form, controls, store, results, solution)
+      idle_form = data%contact_form
+      if (.not. allocated(solution%inner%undetermined)) idle_form = CONTACT_AUTO
+      if (is_ok(status) .and. .not. is_solved(results, status)) then
+         call climb(data, asked_form, controls, store, results, solution, idle_form)
+      end if
+      if (is_ok(status) .and. .not. is_solved(results, status)) call let_out(data, idle_form, controls, store, results, solution)
       if (associated(data%viewer)) call data%viewer%view(data, results, solution)
       if (.not. data%keeps) call release_condensed(data, store)
       if (.not. is_solved(results, status)) call explain_range(data, results, status)
@@ -204,6 +211,8 @@ contains
       again = may_change
       call settle_idle_motions(data, u, data%before, solution, again)
       call stop_phase('recover')
+      if (again .or. solution%converged) return
+      call judge_outcome(data, results, solution, again, status)
    end subroutine solve_form
 
    !> The sparse form: all bodies in one matrix, which is assembled where it is not there.
@@ -232,13 +241,14 @@ contains
    end subroutine solve_assembled
 
    !> One rung after the other. What is found counts when it converges and its law holds; else all is as it was.
-   subroutine climb(data, asked_form, controls, store, results, solution)
+   subroutine climb(data, asked_form, controls, store, results, solution, idle_form)
       type(scene_data_t), intent(inout) :: data
       integer, intent(in) :: asked_form                     !< CONTACT_*
       type(controls_t), intent(in) :: controls
       type(body_cache_t), intent(inout) :: store
       type(results_t), intent(inout) :: results
       type(contact_solution_t), intent(inout) :: solution
+      integer, intent(inout) :: idle_form                   !< in which a motion was idle; CONTACT_AUTO: in none yet
       type(results_t) :: other
       type(contact_solution_t) :: other_solution
       type(controls_t) :: its_controls
@@ -262,12 +272,41 @@ contains
          end if
          call solve_one_form(data, RUNGS(i)%form, its_controls, store, other, other_solution, status)
          if (RUNGS(i)%form == CONTACT_DENSE) solves = solves + other_solution%history%n
-         if (.not. is_solved(other, status)) cycle
-         solution = other_solution
-         results = other
-         return
+         if (is_solved(other, status)) then
+            solution = other_solution
+            results = other
+            return
+         end if
+         if (idle_form == CONTACT_AUTO .and. allocated(other_solution%inner%undetermined)) idle_form = RUNGS(i)%form
       end do
    end subroutine climb
+
+   !> A thin wedge lets out what nothing presses into it. With friction it may hold it as well, which the rungs would have found:
+   !> now the least motion goes as far as it must. What is found counts as that of a rung does.
+   subroutine let_out(data, form, controls, store, results, solution)
+      type(scene_data_t), intent(inout) :: data
+      integer, intent(in) :: form                           !< in which a motion was idle; CONTACT_AUTO: in none
+      type(controls_t), intent(in) :: controls
+      type(body_cache_t), intent(inout) :: store
+      type(results_t), intent(inout) :: results
+      type(contact_solution_t), intent(inout) :: solution
+      type(results_t) :: other
+      type(contact_solution_t) :: other_solution
+      type(status_t) :: status
+
+      if (.not. data%line%has_friction .or. form == CONTACT_AUTO) return
+      call begin_results(results, other)
+      if (form /= data%contact_form) then
+         other%scene%contact_form = contact_form_name(form)
+         other%scene%contact_reason = 'what was tried before found no solution'
+      end if
+      data%lets_out = .true.
+      call solve_one_form(data, form, controls, store, other, other_solution, status)
+      data%lets_out = .false.
+      if (.not. is_solved(other, status)) return
+      solution = other_solution
+      results = other
+   end subroutine let_out
 
    !> Scene, and place in the history, of another attempt.
    pure subroutine begin_results(results, other)

@@ -81,6 +81,7 @@ module atrito_scene_data
       logical :: is_printed = .true.                        !< what is solved for is printed: it is worth stresses and estimates
       logical :: is_last = .true.                           !< nothing comes after it
       logical :: is_brief = .false.                         !< that no solution was found is an answer: no costly rung is tried
+      logical :: lets_out = .false.                         !< what a thin wedge lets out goes, though friction might hold it
       integer(ip) :: most_factorisations = huge(1_ip)       !< of the sparse form in an increment, before it is given up
       ! Of a history:
       logical :: may_cut = .false.                          !< without a solution a shorter increment is tried

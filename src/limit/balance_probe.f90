@@ -3,7 +3,7 @@
 module atrito_balance_probe
    use atrito_bodies, only: mode_at
    use atrito_body_cache, only: body_cache_t
-   use atrito_certificate, only: certificate_t, prove_balance, find_largest_share, BALANCE_IMPOSSIBLE, BALANCE_POSSIBLE
+   use atrito_certificate, only: certificate_t, find_largest_share, BALANCE_IMPOSSIBLE, BALANCE_POSSIBLE
    use atrito_contact_form, only: CONTACT_SPARSE
    use atrito_contact_rows, only: bodies_of_row
    use atrito_free_motion, only: free_motion_text
@@ -11,6 +11,7 @@ module atrito_balance_probe
    use atrito_mechanism, only: mechanism_t, describe_motion
    use atrito_model, only: model_t
    use atrito_motion_rows, only: motion_rows_t, build_motion_rows
+   use atrito_own_axes, only: prove_in_own_axes
    use atrito_results, only: pair_scene_t
    use atrito_rigid_bodies, only: hold_the_same
    use atrito_scene_builder, only: list_held
@@ -100,7 +101,7 @@ contains
          type(certificate_t) :: certificate
 
          call build_motion_rows(data%fem, data%rows, data%line, data%f, motions)
-         call prove_balance(motions, data%line, certificate)
+         call prove_in_own_axes(data%fem, data%rows, data%line, data%f, certificate)
          if (certificate%verdict == BALANCE_POSSIBLE) return
          if (certificate%verdict /= BALANCE_IMPOSSIBLE) then
             if (answer == STANDS) answer = UNDECIDED
@@ -154,7 +155,6 @@ contains
       type(model_t), intent(in), target :: model         !< as read, refined if that was asked
       character(len=:), allocatable, intent(out) :: text !< what to tell of the gaps, without a stop
       type(scene_data_t) :: data
-      type(motion_rows_t) :: motions
       type(certificate_t) :: certificate
       type(solve_options_t) :: asked
       type(body_cache_t) :: store
@@ -175,8 +175,7 @@ contains
          end associate
       end do
       if (all(touches)) return
-      call build_motion_rows(data%fem, data%rows, data%line, data%f, motions)
-      call prove_balance(motions, data%line, certificate, touches)
+      call prove_in_own_axes(data%fem, data%rows, data%line, data%f, certificate, touches)
       if (certificate%verdict /= BALANCE_POSSIBLE) then
          text = 'the balance counts points as touching that are up to '//to_text(maxval(data%rows%gap, mask=.not. touches), 3) &
                 //' apart without loads; without them nothing balances the loads, so its limit says little of what stands'

@@ -7,6 +7,7 @@
 module atrito_idle_motions
    use atrito_bodies, only: simplest_motion
    use atrito_bound_qp, only: FREE, AT_LOWER, FROZEN
+   use atrito_certificate, only: certificate_t, BALANCE_IMPOSSIBLE
    use atrito_contact_line, only: friction_bound, rest_of
    use atrito_contact_rows, only: row_value
    use atrito_contact_solution, only: contact_solution_t
@@ -19,6 +20,7 @@ module atrito_idle_motions
    use atrito_least_motions, only: measure_motions, take_least
    use atrito_load_digits, only: place_doubt, is_within_digits, take_out
    use atrito_motion_rows, only: motion_rows_t, build_motion_rows
+   use atrito_own_axes, only: prove_in_own_axes
    use atrito_scene_data, only: scene_data_t
    use atrito_sparse_rows, only: multiply_rows, transposed_sizes
    implicit none (type, external)
@@ -35,7 +37,8 @@ module atrito_idle_motions
 
 contains
 
-   !> Takes the least of the idle motions. solution%inner%undetermined: one of them, the simplest, or not allocated where there
+   !> Takes the least of the idle motions; a solution whose idle motions the loads drive is none any more (solution%converged).
+   !> solution%inner%undetermined: one of them, the simplest, or not allocated where there
    !> is none; groups of many motions have what their form of the contact system found. Where a motion were idle but for what the
    !> digits of the deck make of the loads, that is taken out of data%f, and the increment is to be solved again.
    !>
@@ -73,6 +76,7 @@ contains
       call join_motions(rows, holds, group)
       call find_idle(rows, holds, group, idle)
       if (may_change) call clear_idle_loads(data, rows, idle, solution, again)
+      if (.not. solution%converged) return
       if (may_change .and. .not. again) call doubt_loads(data, rows, group, idle, holds, tau, solution, again)
       if (again) return
       call doubt_small_forces()
@@ -90,7 +94,8 @@ contains
       end associate
       if (size(idle, 2) > MOST_MOTIONS) return
       call measure_motions(data%fem, u, before, solution%state%a, off, metric)
-      call take_least(data%fem, rows, idle, off, metric, maxval(abs(u)), any(data%line%tangential > 0), solution, way)
+      call take_least(data%fem, rows, idle, off, metric, maxval(abs(u)), data%line%has_friction .and. .not. data%lets_out, &
+                      solution, way)
       if (.not. solution%has_settled) return
       ! only those that have moved: others are exact to their own rounding, which may be far less
       holds = [(holds(i) .and. has_moved(rows, group, way, i), i=1, rows%n)]
@@ -100,7 +105,7 @@ contains
 
       !> A force that is less than what the digits of the deck make of the largest one on its body, and without which a motion were
       !> idle, is none: a roller that stands on one node does not turn until the next one touches because its load is off by the
-      !> last digit. With friction the bound at its neighbours may hang on it, and it stays.
+      !> last digit. With friction the bound at its neighbours may hang on it, and only what is round-off is none.
       subroutine doubt_small_forces()
          real(wp) :: largest(rows%n)
          logical :: is_sure(size(holds))
@@ -111,9 +116,10 @@ contains
          is_sure = holds
          do i = 1, rows%n
             associate (j => data%line%point(i))
-               if (.not. holds(i) .or. rows%first(i + 1) == rows%first(i) .or. data%line%law(j)%kind /= FRICTION_NONE) cycle
+               if (.not. holds(i) .or. rows%first(i + 1) == rows%first(i) .or. data%line%normal(j) /= i) cycle
                if (j > data%line%n - data%line%n_bilateral) cycle
-               is_sure(i) = abs(solution%state%q(i)) > dropped_part(data, i)*largest(i)
+               is_sure(i) = abs(solution%state%q(i)) > largest(i)*merge(dropped_part(data, i), NO_FORCE, &
+                                                                        data%line%law(j)%kind == FRICTION_NONE)
             end associate
          end do
          if (all(is_sure .eqv. holds)) return
@@ -198,13 +204,15 @@ contains
    end function dropped_part
 
    !> Takes the work on idle motions out of the loads, which a solution has counted as none: else its bodies were out of balance by
-   !> it, which may be all that there is of other forces.
+   !> it, which may be all that there is of other forces. Where the certificate proves that nothing balances it, and it is more than
+   !> the digits of the deck make, the loads drive the motion: then there is no solution (solution%converged).
    subroutine clear_idle_loads(data, rows, idle, solution, has_changed)
       type(scene_data_t), intent(inout) :: data
       type(motion_rows_t), intent(in) :: rows
       real(wp), intent(in) :: idle(:, :)            !< (k, motions)
-      type(contact_solution_t), intent(in) :: solution
+      type(contact_solution_t), intent(inout) :: solution
       logical, intent(out) :: has_changed
+      type(certificate_t) :: certificate
       real(wp) :: most(rows%n_columns), sizes(rows%n_columns)
       integer(ip) :: k
 
@@ -212,7 +220,11 @@ contains
       sizes = rows%work_size + transposed_sizes(rows, solution%state%q)
       sizes = [(maxval(sizes, mask=rows%body == rows%body(k)), k=1, rows%n_columns)]
       has_changed = any(abs(most) > NO_FORCE*sizes) .and. all(abs(most) <= BALANCED*sizes)
+      if (.not. has_changed) return
+      call prove_in_own_axes(data%fem, data%rows, data%line, data%f, certificate)
+      if (certificate%verdict == BALANCE_IMPOSSIBLE) has_changed = is_within_digits(data, rows, certificate%motion, certificate%q)
       if (has_changed) call take_out(data, most)
+      solution%converged = has_changed
    end subroutine clear_idle_loads
 
    !> Takes the work on motions that were idle but for small forces out of the loads, where it is no more than what the digits of

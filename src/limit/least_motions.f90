@@ -63,14 +63,14 @@ contains
    !> M has a block of order 3 a body (measure_motions). With V'M V = Q diag(l) Q' the columns of W = V Q diag(l)^-1/2 are as many
    !> motions with W'M W = 1, and of s over these the sum is |s + W'off|^2 but for a constant: the least is at s = -W'off, and the
    !> least under conditions is the point nearest to that one (within_conditions), in the plain sense of the distance.
-   subroutine take_least(fem, rows, idle, off, metric, largest, has_friction, solution, way)
+   subroutine take_least(fem, rows, idle, off, metric, largest, may_hold, solution, way)
       type(fem_t), intent(in) :: fem                      !< bodies with their motions
       type(motion_rows_t), intent(in) :: rows             !< G
       real(wp), intent(in) :: idle(:, :)                  !< (k, motions)
       real(wp), intent(in) :: off(:)                      !< (k) [L]
       real(wp), intent(in) :: metric(:, :, :)             !< (3, 3, bodies) of measure_motions
       real(wp), intent(in) :: largest                     !< displacement [L]
-      logical, intent(in) :: has_friction           !< any point has: then a wedge may hold, which other methods find
+      logical, intent(in) :: may_hold                     !< a thin wedge may, by friction: other methods are to find how
       type(contact_solution_t), intent(inout) :: solution !< its motions change, and `r` of rows at a bound
       real(wp), intent(out) :: way(:)                     !< (k) that the bodies went [L]; 0 where they did not
       real(wp) :: basis(size(idle, 1), size(idle, 2)), gram(size(idle, 2), size(idle, 2)), values(size(idle, 2))
@@ -85,7 +85,7 @@ contains
       do j = 1, size(values, kind=ip)
          basis(:, j) = basis(:, j)/sqrt(max(values(j), tiny(1.0_wp)))
       end do
-      way = matmul(basis, within_conditions(rows, basis, -matmul(off, basis), has_friction, solution))
+      way = matmul(basis, within_conditions(rows, basis, -matmul(off, basis), may_hold, solution))
       if (maxval(abs(way)) <= NO_WAY*max(maxval(abs(solution%state%a)), largest)) then
          way = 0.0_wp
          return
@@ -125,12 +125,12 @@ contains
    !> which goes onto the plane a_i's = b_i from outside, and from inside back towards it as far as earlier steps had gone away from
    !> s0. Sweep after sweep that is coordinate ascent on the dual problem: its value rises with each step, and s converges, linearly
    !> in the end (C. Hildreth, Naval Research Logistics Quarterly 4 (1957) 79-85); slowly where conditions are nearly the same, as
-   !> of a thin wedge: then another method ends it (meet_exactly), without friction. s = 0, the displacements as found,
+   !> of a thin wedge: then another method ends it (meet_exactly). s = 0, the displacements as found,
    !> meets all conditions, so there always is such a point.
-   function within_conditions(rows, basis, wanted, has_friction, solution) result(s)
+   function within_conditions(rows, basis, wanted, may_hold, solution) result(s)
       type(motion_rows_t), intent(in) :: rows
       real(wp), intent(in) :: basis(:, :), wanted(:)
-      logical, intent(in) :: has_friction
+      logical, intent(in) :: may_hold
       type(contact_solution_t), intent(in) :: solution
       real(wp) :: s(size(wanted)), a(size(wanted), rows%n), bound(rows%n), multiplier(rows%n), size_of(rows%n), step, most
       integer(ip), allocatable :: seen(:) ! rows that see a motion
@@ -160,7 +160,7 @@ contains
          end do
          if (most <= SETTLED*norm2(wanted)) return
       end do
-      if (.not. has_friction) call meet_exactly(a(:, seen), bound(seen), wanted, s)
+      if (.not. may_hold) call meet_exactly(a(:, seen), bound(seen), wanted, s)
    end function within_conditions
 
    !> The same point in finitely many steps: the way from s0 is the least x with -a_i . x >= a_i . s0 - b_i for each condition. Let

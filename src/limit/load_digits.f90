@@ -3,9 +3,10 @@
 !> A roller on one node of its rim, loaded through its centre, stands: nothing but rounding of coordinates, by some units g of their
 !> last digit, makes a moment about that node, which would turn it onto the next one. So where a motion v of the bodies were idle
 !> but for points with small forces, the work W = h'v of the loads is compared with what the digits can make of it: of the forces on
-!> a body that turns by w, and of the forces of the points that hold, whose normals are known to some g over their lengths l_j,
+!> a body that turns by w, of the forces of the points that hold, whose normals are known to some g over their lengths l_j, and of
+!> those on loaded faces, since the ends of a face of length l_f say how much of a pressure acts and whereto,
 !>
-!>    |W| <= 5 g (sum over bodies of |w| sum |f| + sum over points of |q_j| |v_T,j|/l_j).
+!>    |W| <= 5 g (sum over bodies of |w| sum |f| + sum over points of |q_j| |v_T,j|/l_j + sum over loaded faces of |f| |v|/l_f).
 !>
 !> Then, and below 2.5e-3 of the forces, which is what four digits leave, it is none, and the least change of the loads takes it out
 !> of them. Normals along an axis, and decks that are not rounded to digits, leave nothing in doubt.
@@ -13,6 +14,7 @@ module atrito_load_digits
    use atrito_contact_rows, only: vector_of_entry
    use atrito_dense, only: solve_lu
    use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: face_nodes
    use atrito_motion_rows, only: motion_rows_t
    use atrito_row_entries, only: first_motions, modes_at_node
    use atrito_scene_data, only: scene_data_t, reload
@@ -93,6 +95,9 @@ contains
          end do
          allowed = allowed + abs(q(i)*along)/data%rows%reach(j)
       end do
+      do i = 1, data%step%element_loads%n
+         allowed = allowed + doubt_of_face(i)
+      end do
       sizes = rows%work_size + transposed_sizes(rows, q)
       most = 0.0_wp
       do b = 1, data%fem%bodies%n                   ! whatever arms the forces on a body have
@@ -104,6 +109,27 @@ contains
       is_within_digits = abs(dot_product(v, rows%work)) <= allowed
 
    contains
+
+      !> The forces at the ends of a loaded face times their way, over its length; 0: of other loads.
+      real(wp) function doubt_of_face(i) result(doubt)
+         integer(ip), intent(in) :: i                  !< load
+         integer(ip), allocatable :: ends(:)
+         integer(ip) :: b, k
+
+         doubt = 0.0_wp
+         associate (loads => data%step%element_loads, mesh => data%fem%mesh, n_modes => first(2:) - first(:data%fem%bodies%n))
+            if (loads%face(i) == 0) return
+            ends = face_nodes(mesh, loads%element(i), loads%face(i))
+            b = data%fem%bodies%of_node(ends(1))
+            if (b == 0) return
+            do k = 1, 2
+               associate (way => matmul(modes_at_node(data%fem, b, ends(k)), [v(first(b):first(b + 1) - 1), &
+                                                                              spread(0.0_wp, 1, 3 - n_modes(b))]))
+                  doubt = doubt + norm2(data%f(:, ends(k)))*norm2(way)/norm2(mesh%x(:, ends(2)) - mesh%x(:, ends(1)))
+               end associate
+            end do
+         end associate
+      end function doubt_of_face
 
       !> What entry k of point j adds to its slip in a motion of the bodies.
       real(wp) function rate_of_entry() result(rate)

@@ -1,7 +1,7 @@
 !> What it means that no solution was found: there is none, and why; or there may be one, and the last iterate is what there is.
 module atrito_verdict
    use atrito_body_cache, only: body_cache_t
-   use atrito_certificate, only: certificate_t, prove_balance, BALANCE_IMPOSSIBLE, BALANCE_POSSIBLE
+   use atrito_certificate, only: certificate_t, BALANCE_IMPOSSIBLE, BALANCE_POSSIBLE
    use atrito_clp, only: clp_trouble
    use atrito_contact_form, only: CONTACT_SPARSE
    use atrito_contact_problem, only: set_known_points
@@ -12,13 +12,17 @@ module atrito_verdict
    use atrito_mechanism, only: mechanism_t, describe_motion
    use atrito_model, only: model_t
    use atrito_motion_rows, only: motion_rows_t, build_motion_rows
+   use atrito_own_axes, only: prove_in_own_axes
    use atrito_results, only: pair_scene_t
    use atrito_scene_data, only: prepare, scene_data_t, solve_options_t
+   use atrito_sparse_rows, only: add_transposed, transposed_sizes
    use atrito_status, only: is_ok, status_t, set_status, STATUS_SINGULAR
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
    public :: judge_balance
+
+   real(wp), parameter :: NO_LOAD = 1.0e-13_wp    !< of what was added up: round-off
 
 contains
 
@@ -38,18 +42,13 @@ contains
       logical :: is_doubtful
 
       call build_motion_rows(data%fem, data%rows, data%line, data%f, motions)
-      call prove_balance(motions, data%line, certificate)
+      call prove_in_own_axes(data%fem, data%rows, data%line, data%f, certificate)
       is_doubtful = .false.
       if (certificate%verdict == BALANCE_IMPOSSIBLE) then
          is_doubtful = is_within_digits(data, motions, certificate%motion, certificate%q)
       end if
-      again = again .and. is_doubtful
-      if (again) then
-         associate (v => certificate%motion)
-            call take_out(data, v*(dot_product(v, motions%work)/sum(v**2)))
-         end associate
-         return
-      end if
+      if (again) call take_doubtful_out()
+      if (again) return
       if (certificate%verdict == BALANCE_IMPOSSIBLE) call look_at_ends(data, ends)
       if (certificate%verdict == BALANCE_IMPOSSIBLE .and. .not. (is_doubtful .or. allocated(ends))) then
          call build_motion_rows(data%fem, data%rows, data%line, f_end, motions_at_end)
@@ -63,6 +62,28 @@ contains
       else
          verdict = verdict//'; '//knowledge(certificate)
       end if
+
+   contains
+
+      !> What the digits of the deck alone make of the loads: their work on the motion of a proof, or what forces leave that balance
+      !> the loads to IN_BALANCE, which no form of the contact system can solve for where nothing holds it.
+      subroutine take_doubtful_out()
+         type(motion_rows_t) :: rest
+
+         again = is_doubtful
+         if (is_doubtful) then
+            associate (v => certificate%motion)
+               call take_out(data, v*(dot_product(v, motions%work)/sum(v**2)))
+            end associate
+         else if (certificate%verdict == BALANCE_POSSIBLE) then
+            rest = motions
+            call add_transposed(motions, -1.0_wp, certificate%q, rest%work)
+            again = any(abs(rest%work) > NO_LOAD*(motions%work_size + transposed_sizes(motions, certificate%q)))
+            if (again) again = is_within_digits(data, rest, rest%work/maxval(abs(rest%work)), certificate%q)
+            if (again) call take_out(data, rest%work)
+         end if
+      end subroutine take_doubtful_out
+
    end subroutine judge_balance
 
    !> Whether loads that the points cannot take may be taken by forces at ends of masters, where the slave's nodes beside them leave
@@ -74,7 +95,6 @@ contains
       type(scene_data_t) :: longer
       type(body_cache_t) :: store
       type(solve_options_t) :: asked
-      type(motion_rows_t) :: motions
       type(certificate_t) :: certificate
       type(status_t) :: status
       real(wp), allocatable :: places(:, :)
@@ -88,8 +108,7 @@ contains
       if (.not. is_ok(status)) return
       longer%f = data%f
       call set_known_points(longer%rows, data%value, longer%line)
-      call build_motion_rows(longer%fem, longer%rows, longer%line, longer%f, motions)
-      call prove_balance(motions, longer%line, certificate)
+      call prove_in_own_axes(longer%fem, longer%rows, longer%line, longer%f, certificate)
       if (certificate%verdict == BALANCE_IMPOSSIBLE) return
       text = 'no forces at the points of this mesh balance the loads, but forces at the ends of masters between nodes of the '// &
              'slave may, as at ('//to_text(places(1, 1), 6)//', '//to_text(places(2, 1), 6)//'): it takes a node of the slave there'

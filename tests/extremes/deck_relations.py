@@ -178,14 +178,14 @@ def signed_axes(deck, q):
                 row[i + 1:i + 3] = [str(axis + 1), repr(sign*float(row[i + 2]))]
 
 
-def shaken(deck, rng):
-    """No relation: each place off by a last digit or two, which is what turning a deck does to it."""
+def shaken(deck, rng, digits=1.0):
+    """No relation: each place off by a last digit or two, which is what turning a deck does to it; or by some more digits."""
     deck = deck.copy()
     rows = [(row, 1) for _, _, data in deck.each('NODE') for row in data]
     rows += [(row, i) for _, options, data in deck.each('SURFACE') if options.get('TYPE') == 'SEGMENTS' for row in data
              for i in range(1, len(row) - 1, 2)]
     for row, i in rows:
-        digit = 2.0**-52*math.hypot(float(row[i]), float(row[i + 1]))
+        digit = digits*2.0**-52*math.hypot(float(row[i]), float(row[i + 1]))
         row[i:i + 2] = [repr(float(word) + rng.choice((-1.0, 1.0))*digit) for word in row[i:i + 2]]
     return deck
 

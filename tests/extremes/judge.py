@@ -31,6 +31,7 @@ from shape_functions import GAUSS, line_shapes, quadrature, shapes
 
 EPS = 2.0**-52
 LAW = 1e-7
+FOUND = 1e-10       # of the largest: friction bounds, where the outer loop stops
 FORCE = 1e-7
 BALANCE = 1e-7
 PLACE = 1e-9
@@ -555,7 +556,8 @@ def check_status(law, field, j, bound, place, distance, where, verdict):
     good = p == 0 if status == 0 else p > 0 or abs(field['gap'][j]) <= distance
     if status == 1 and p > 0:
         good = good and law.kind != 'NONE' and law.nu > 0 and slip <= limit*(1 + 1e-7) + place
-    if status == 2 and p > 0 and law.kind != 'NONE' and bound > 0 and limit > 0:
+    # where the bound is less than what bounds are found to it may have been none
+    if status == 2 and p > 0 and law.kind != 'NONE' and bound > FOUND*field['bound'].max() and limit > 0:
         good = good and slip >= limit*(1 - 1e-7) - place
     if not good:
         verdict.wrong.append((math.inf, f'status {status} at {where}: p {p}, slip {slip}, limit {limit}'))
@@ -678,14 +680,15 @@ def balance_rows(bodies, owner, pairs):
 
 def stays_open(pair, j, owner):
     """Whether supports keep a point open: its motion along the normal is prescribed, and does not close its gap. (A pressure there
-    would cost the bodies nothing and give them friction.)"""
+    would cost the bodies nothing and give them friction.) Where contact is soft, touching is not enough: its pressure is then known
+    from the overlap, which is none."""
     overlap = -pair.gap0[j]
     for node, factor in pair.rows(j):
         body, i = owner[node], owner[node].index[node]
         if factor and (pair.normal[j]*~body.held[i]).any():
             return False
         overlap += factor*(body.value[i] @ pair.normal[j])
-    return overlap < -16*EPS*np.abs(pair.x).max()
+    return overlap < math.copysign(16*EPS*np.abs(pair.x).max(), 1 if pair.law.delta > 0 else -1)
 
 
 def friction_bounds(pairs):

@@ -20,6 +20,7 @@ BLOCK = '*BLOCK, TYPE={kind}, ELSET={name}, NX={nx}, NY={ny}\n{x0}, {y0}\n{x1}, 
         '*MATERIAL, NAME=M-{name}\n*ELASTIC\n{e}, 0.2\n*SOLID SECTION, ELSET={name}, MATERIAL=M-{name}\n1.\n'
 PAIR = '*SURFACE INTERACTION, NAME={name}\n*FRICTION{law}\n*CONTACT PAIR, INTERACTION={name}, QUADRATURE=NODAL\n{slave}, {master}\n'
 FLOOR = '*SURFACE, NAME=FLOOR, TYPE=SEGMENTS\nSTART, -9., 0.\nLINE, 9., 0.\n*RIGID BODY, ANALYTICAL SURFACE=FLOOR\n'
+SOFT = '*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n100.\n'
 END = '*NODE PRINT\nU, RF\n*END STEP\n'
 
 
@@ -174,9 +175,10 @@ def clamped_block(slope):
             + '*STEP\n*STATIC\n*BOUNDARY\nB1-BOTTOM, 1, 2\nB3-TOP, 1, 2\n*DSLOAD\nB2-LEFT, P, 1.\n' + END)
 
 
-def hung_block(lowered):
+def hung_block(lowered, behaviour=''):
     """A block pushed to the side, 0.1 above a rough floor, its bottom lowered by its supports."""
-    return (block('B1', 0., 0.1, 2., 0.6) + FLOOR + PAIR.format(name='P1', law='\n0.3', slave='B1-BOTTOM', master='FLOOR')
+    pair = PAIR.format(name='P1', law='\n0.3', slave='B1-BOTTOM', master='FLOOR').replace('*FRICTION', behaviour + '*FRICTION')
+    return (block('B1', 0., 0.1, 2., 0.6) + FLOOR + pair
             + f'*STEP\n*STATIC\n*BOUNDARY\nB1-BOTTOM, 2, 2, {-lowered}\n*DSLOAD\nB1-LEFT, P, 1.\n' + END)
 
 
@@ -203,6 +205,9 @@ def programme_must_know():
              ('a joint that rises by 1e-8', clamped_block(1e-8), 'feasible'),
              ('a block that supports hold above the floor', hung_block(0.0), 'infeasible'),
              ('a block that supports press upon the floor', hung_block(0.2), 'feasible'),
+             ('a block that supports put on a hard floor', hung_block(0.1), 'feasible'),
+             ('a block that supports put on a soft floor', hung_block(0.1, SOFT), 'infeasible'),
+             ('a block that supports press upon a soft floor', hung_block(0.2, SOFT), 'feasible'),
              ('a supported block', one_block(100.).replace('*DSLOAD', '*BOUNDARY\nB1-RIGHT, 1\n*DSLOAD'), 'feasible')]
     for what, deck, word in cases:
         found, z = judge.judge_feasibility(read_deck(deck))

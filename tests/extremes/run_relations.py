@@ -34,6 +34,7 @@ from scene_reader import read_deck, read_table
 
 EXACT, WITH_FRICTION = 1e-9, 1e-7
 DIGITS, EPS = 64, 2.0**-52
+NO_FEW_DIGITS = 250.5          # units of the last digit
 LITTLE = 1e-4  # of the largest displacement, of the loads, of pressures: slips, reactions, shears that are much less are measured by it
 OTHER_DECKS = {'quarter turn': relations.quarter_turn, 'turn': relations.turn, 'mirror': relations.mirror, 'units': relations.units,
                'renumbered': relations.renumber, 'empty step': relations.empty_step}
@@ -215,7 +216,8 @@ def compare_all(settings, outcome, deck, base):
     exact = Deck(deck_of(settings, outcome.number, digits=17)[1])
     all_digits = first
     if exact.text() == deck.text() and relations.has_few_digits(deck):
-        exact = relations.shaken(deck, random.Random(f'{settings.seed}-{outcome.number}'))  # which the other deck cannot show, either
+        # so far that it is no deck of few digits, as the other one is none
+        exact = relations.shaken(deck, random.Random(f'{settings.seed}-{outcome.number}'), NO_FEW_DIGITS)
     if exact.text() != deck.text():
         all_digits = Result(settings, exact.text(), base, 'all-digits')
         if outcome.has_friction and outcome.is_one:

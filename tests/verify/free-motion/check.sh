@@ -34,12 +34,25 @@ run 4 falls.inp falls
 says falls falls.err 'together under their loads: the loads drive them with 5000 [F], and no contact is in the way; their supports'
 absent falls
 absent alone
-# 4e-10 of the weight may be what digits leave: what is no load is taken out of the loads. 3e-9 is a load
-run 0 "$here/block.inp" digits --set side=4e-10 --contact sparse
-says digits digits.err 'W-IDLE'
-below 'digits: balance' "$(summary digits equilibrium_residual)" 1e-12
+# turned ANGLE DIGITS: the block and its floor, turned, in numbers of so many digits
+turned() {
+   awk -v angle="$1" -v digits="$2" -f "$here/turned.awk" "$here/block.inp"
+}
+# 4e-10 of the weight along the floor are a load, in either form and however the scene is turned; nothing is none; where eight digits
+# say how the floor slopes, it is what they leave and is taken out of the loads
 for form in dense sparse; do
-   run 4 "$here/block.inp" drives --set side=3e-9 --contact $form
+   run 4 "$here/block.inp" drives --set side=4e-10 --contact $form
+   for angle in 30 57.3 114.6; do
+      turned $angle 17 >exact.inp
+      run 4 exact.inp "drives $angle" --set side=4e-10 --contact $form
+      says "drives $angle $form" "drives $angle.err" 'the load drives it with H = 4e-10 [F]'
+      run 0 exact.inp "rests $angle" --contact $form
+      says "rests $angle $form" "rests $angle.err" 'W-IDLE'
+      turned $angle 8 >digits.inp
+      run 0 digits.inp "digits $angle" --set side=4e-10 --contact $form
+      says "digits $angle $form" "digits $angle.err" 'W-IDLE'
+      below "digits $angle $form: balance" "$(summary "digits $angle" equilibrium_residual)" 1e-12
+   done
 done
 # a support that carried nothing leaves nothing behind, and a load that has just begun is told as it is at the end of its step
 for form in dense sparse; do

@@ -46,6 +46,15 @@ done
 for form in dense sparse; do
    run 0 "$here/wedge.inp" wedge-$form --contact $form
    says "wedge $form" wedge-$form.err 'W-IDLE'
+   # with a little friction, too; with more it holds the block
+   for nu in 0.05 0.3; do
+      sed "s/^1.2163928946701518E-002$/&\n*FRICTION\n$nu/; s/PRESSURE-OVERCLOSURE=HARD/&\n*FRICTION\n$nu/" "$here/wedge.inp" >rough.inp
+      run 0 rough.inp rough-$nu-$form --contact $form
+   done
+   says "wedge, 0.05 $form" rough-0.05-$form.err 'W-IDLE'
+   all_near "wedge, 0.05 $form: pressure" rough-0.05-$form/contact.tab pressure 0 0
+   near "wedge, 0.3 $form: W-IDLE" "$(grep -c W-IDLE rough-0.3-$form.err)" 0 0
 done
+same_tables "wedge that holds, both forms" rough-0.3-dense/contact.tab rough-0.3-sparse/contact.tab 1e-7
 same_tables "drift, both forms" drift-dense-skyline/nodes.tab drift-sparse-sparse/nodes.tab 1e-12
 finish
