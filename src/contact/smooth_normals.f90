@@ -88,9 +88,7 @@ contains
       call turn_outer_ends(curvature, ends)
       turn = turn + joints/max(n_joints, 1_ip)
       joints = 0.0_wp                               ! of the turns, what is rounding
-      if (present(grain)) then
-         if (all(1 > LATTICE*grain*curvature)) joints = DIGITS_TURN*grain*curvature
-      end if
+      if (present(grain)) joints = merge(DIGITS_TURN*grain*curvature, 0.0_wp, all(1 > LATTICE*grain*curvature))
       curvature = turn*shown(turn, joints)*curvature
 
    contains
