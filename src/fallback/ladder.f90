@@ -29,12 +29,13 @@ module atrito_ladder
    !> In the order in which they are tried, each with scenes that have no solution without it (seed/number of random_scenes, in
    !> tests/extremes/CMakeLists.txt; in an optimised build, as round-off decides which states are tried). NEWTON, small
    !> steps alone and more iterations found nothing that these do not, but for two scenes of 7,000 (4711/3598, 11/2226).
-   type(rung_t), parameter :: RUNGS(5) = [ &
+   type(rung_t), parameter :: RUNGS(6) = [ &
                               rung_t(CONTACT_SPARSE, METHOD_ANDERSON), &           ! multipliers: 11/1, 11/137, 11/1172
                               rung_t(CONTACT_DENSE, METHOD_EASED), &               ! from more friction: 11/154, 4711/2464
                               rung_t(CONTACT_DENSE, METHOD_ANDERSON, 4_ip, 0.3_wp, .true.), & ! small steps, coarse: 11/542
                               rung_t(CONTACT_DENSE, METHOD_PICARD, 10_ip), &       ! the plain loop: 4711/3090, 11/2757
-                              rung_t(CONTACT_DENSE, METHOD_PICARD, 10_ip, 0.3_wp)] ! a damped loop: 11/1255, /1881, 4711/2888, /3289
+                              rung_t(CONTACT_DENSE, METHOD_PICARD, 10_ip, 0.3_wp), & ! a damped loop: 11/1255, /1881, 4711/2888, /3289
+                              rung_t(CONTACT_SPARSE, METHOD_ANDERSON, 10_ip)]      ! multipliers with more steps: 20290502/1146
    integer, parameter :: BRIEF = 2, QUICK = 2              !< of them in brief, and where points are many:
    integer(ip), parameter :: MOST_PATIENT = 400            !< unknown forces
    integer(ip), parameter :: FEW_FORCES = 50               !< so few that no rung costs anything
