@@ -34,7 +34,7 @@ module atrito_ladder
                               rung_t(CONTACT_DENSE, METHOD_EASED), &               ! from more friction: 11/154, 4711/2464
                               rung_t(CONTACT_DENSE, METHOD_ANDERSON, 4_ip, 0.3_wp, .true.), & ! small steps, coarse: 11/542
                               rung_t(CONTACT_DENSE, METHOD_PICARD, 10_ip), &       ! the plain loop: 4711/3090, 11/2757
-                              rung_t(CONTACT_DENSE, METHOD_PICARD, 10_ip, 0.3_wp), & ! a damped loop: 11/1255, /1881, 4711/2888, /3289
+                              rung_t(CONTACT_DENSE, METHOD_PICARD, 10_ip, 0.3_wp), & ! damped: 11/1255, /1881, 4711/2888, /3289
                               rung_t(CONTACT_SPARSE, METHOD_ANDERSON, 10_ip)]      ! multipliers with more steps: 20290502/1146
    integer, parameter :: BRIEF = 2, QUICK = 2              !< of them in brief, and where points are many:
    integer(ip), parameter :: MOST_PATIENT = 400            !< unknown forces
