@@ -50,6 +50,7 @@ module atrito_certificate
    real(wp), parameter :: OF_BODY = 1.0e-13_wp    !< remainder over the largest force on the body
    real(wp), parameter :: CLEAR = 1.0e-9_wp       !< excess over the loads' work
    real(wp), parameter :: MANY_TIMES = 1.0e8_wp   !< larger forces than those of the bodies' size, times this, are none
+   real(wp), parameter :: SOME_TIMES = 1.0e3_wp   !< the same of forces that a body hands on, of the size of those beside it
    real(wp), parameter :: NO_MOTION = 1.0e-9_wp   !< of the largest, scaled by forces
    integer(ip), parameter :: MOST_PASSES = 3_ip
    integer(ip), parameter :: MANY_MOTIONS = 500_ip !< from here on interior points are faster than simplex steps
@@ -300,9 +301,10 @@ contains
    !>     excess   = h'v - (what known pressures take by friction)
    !>     resisted = N_k v + (1/w_k) sum_j w_j nu_j W_jk |T_j v|  at each point, above zero by round-off alone if v is a proof
    !>     taken    = sum of resisted times the size of the forces on the bodies there, the lesser of two
+   !>     handed_on = the same with the larger of the two: a light body hands on the weight of a heavy one to what carries it
    !>
-   !> proven where excess > CLEAR of the work of all loads, and > MANY_TIMES taken. A bilateral row may pull and push, so |N_k v|
-   !> counts.
+   !> proven where excess > CLEAR of the work of all loads, > MANY_TIMES taken, and > SOME_TIMES handed_on. A bilateral row may pull
+   !> and push, so |N_k v| counts.
    subroutine motion_excess(rows, line, body_force, v, excess, proven)
       type(motion_rows_t), intent(in) :: rows    !< G, and the work of the loads on each motion
       type(contact_line_t), intent(in) :: line   !< points, weights, laws and averages are read
@@ -310,7 +312,7 @@ contains
       real(wp), intent(in) :: v(:)               !< (k) [L]
       real(wp), intent(out) :: excess            !< [F L]
       logical, intent(out) :: proven             !< no forces can balance the loads
-      real(wp) :: rate(rows%n), terms(rows%n), by_friction(line%n), known_work, work_size, taken, resisted
+      real(wp) :: rate(rows%n), terms(rows%n), by_friction(line%n), known_work, work_size, taken, handed_on, resisted
       integer(ip) :: i
 
       call multiply_rows(rows, v, rate, terms)
@@ -318,18 +320,22 @@ contains
       excess = dot_product(rows%work, v) - known_work
       work_size = dot_product(rows%work_size, abs(v)) + known_work
       taken = 0.0_wp
+      handed_on = 0.0_wp
       do i = 1, rows%n
          if (line%normal(line%point(i)) /= i) cycle
          resisted = rate(i) + by_friction(line%point(i))
          if (line%point(i) > line%n - line%n_bilateral) resisted = abs(rate(i))
          if (resisted <= ROUND_OFF*(terms(i) + by_friction(line%point(i)))) cycle
          if (rows%first(i + 1) > rows%first(i)) then
-            taken = taken + resisted*minval(body_force(rows%column(rows%first(i):rows%first(i + 1) - 1)))
+            associate (forces => body_force(rows%column(rows%first(i):rows%first(i + 1) - 1)))
+               taken = taken + resisted*minval(forces)
+               handed_on = handed_on + resisted*maxval(forces)
+            end associate
          else
             taken = taken + resisted*maxval(body_force)      ! its pressure only raises the friction of others
          end if
       end do
-      proven = excess > CLEAR*work_size .and. excess > MANY_TIMES*taken
+      proven = excess > CLEAR*work_size .and. excess > MANY_TIMES*taken .and. excess > SOME_TIMES*handed_on
    end subroutine motion_excess
 
    !> What a unit of each pressure force takes by friction, at its own point and where it is averaged; and what known ones take.

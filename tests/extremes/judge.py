@@ -43,7 +43,7 @@ TILTED = 0.01      # sine from which on the end of a slave stands on its master
 STRAIGHT = 1e-6    # radians between faces that are rounding of the places
 CANCEL = 1e-13
 BALANCED = 1e-12
-MOST_FORCE = 10**10
+MOST_FORCE = 10**8
 TINY = Decimal(10)**-30
 NOISE = Decimal(10)**-60
 
@@ -635,10 +635,11 @@ def judge_feasibility(scene):
     |t| <= nu S_rho(p). S is the body's own load. e is round-off where large forces cancel: CANCEL of the sum of the forces q that
     meet at the body, these counted up to ten times all loads. `feasible` when z is at most BALANCED, else `infeasible`, and z.
 
-    The pressures q may be MOST_FORCE of all loads. Without a limit any load is balanced between two clamped bodies: a joint between
-    them is level, or its two sides equal and opposite, to 1e-16, and forces of 1e16 loads make a load of that. (By exact arithmetic
-    the rows of action and reaction cancel. 11 decks of seeds 11 and 12 were feasible by forces of 1e12 to 1e16 loads alone.) A joint
-    that slopes by 1e-9 is still a slope."""
+    The pressures q may be MOST_FORCE of all loads, which is what a proof of the program holds for. Without a limit any load is
+    balanced between two clamped bodies: a joint between them is level, or its two sides equal and opposite, to 1e-16, and forces of
+    1e16 loads make a load of that; with coordinates of ten digits to 1e-10 (two joints without friction along a row of turned blocks
+    that should be parallel: seed 20290305/855, forces of 4.4e8 loads). (By exact arithmetic the rows of action and reaction cancel.
+    11 decks of seeds 11 and 12 were feasible by forces of 1e12 to 1e16 loads alone.) A joint that slopes by 1e-8 is still a slope."""
     bodies, owner = build_bodies(scene)
     return judge_bodies(bodies, owner, [Pair(scene, owner, *names) for names in scene.pairs])
 

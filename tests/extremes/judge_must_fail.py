@@ -202,6 +202,7 @@ def programme_must_know():
              ('a line kernel that does not reach', one_block(0.1, ', NONLOCAL, KERNEL=LINE\n0.3, 0., 1e4'), 'infeasible'),
              # the joint rises by round-off: no force that could be balances the push
              ('a joint that is level but for round-off', clamped_block(1e-15), 'infeasible'),
+             ('a joint that rises by the tenth digit of its places', clamped_block(1e-10), 'infeasible'),
              ('a joint that rises by 1e-8', clamped_block(1e-8), 'feasible'),
              ('a block that supports hold above the floor', hung_block(0.0), 'infeasible'),
              ('a block that supports press upon the floor', hung_block(0.2), 'feasible'),
