@@ -240,7 +240,7 @@ contains
       if (allocated(u) .and. .not. data%keeps) call drop_assembled(data)   ! the stresses want the memory of the factors
    end subroutine solve_assembled
 
-   !> One rung after the other. What is found counts when it converges and its law holds; else all is as it was.
+   !> One rung after the other, until one finds a solution.
    subroutine climb(data, asked_form, controls, store, results, solution, idle_form)
       type(scene_data_t), intent(inout) :: data
       integer, intent(in) :: asked_form                     !< CONTACT_*
@@ -249,12 +249,11 @@ contains
       type(results_t), intent(inout) :: results
       type(contact_solution_t), intent(inout) :: solution
       integer, intent(inout) :: idle_form                   !< in which a motion was idle; CONTACT_AUTO: in none yet
-      type(results_t) :: other
-      type(contact_solution_t) :: other_solution
+      type(contact_solution_t) :: tried
       type(controls_t) :: its_controls
-      type(status_t) :: status
       integer(ip) :: m, solves
       integer :: i
+      logical :: found
 
       if (controls%method /= METHOD_ANDERSON) return        ! the user's own choice
       m = size(data%line%point, kind=ip)
@@ -265,24 +264,15 @@ contains
          its_controls = controls_of_rung(RUNGS(i), controls)
          call report_progress(data%reporter, 'no solution; the '//contact_form_name(RUNGS(i)%form) &
                               //' form of the contact system'//rung_text(RUNGS(i), its_controls))
-         call begin_results(results, other)
-         if (RUNGS(i)%form /= data%contact_form) then
-            other%scene%contact_form = contact_form_name(RUNGS(i)%form)
-            other%scene%contact_reason = 'what was tried before found no solution'
-         end if
-         call solve_one_form(data, RUNGS(i)%form, its_controls, store, other, other_solution, status)
-         if (RUNGS(i)%form == CONTACT_DENSE) solves = solves + other_solution%history%n
-         if (is_solved(other, status)) then
-            solution = other_solution
-            results = other
-            return
-         end if
-         if (idle_form == CONTACT_AUTO .and. allocated(other_solution%inner%undetermined)) idle_form = RUNGS(i)%form
+         call attempt(data, RUNGS(i)%form, its_controls, store, results, solution, tried, found)
+         if (found) return
+         if (RUNGS(i)%form == CONTACT_DENSE) solves = solves + tried%history%n
+         if (idle_form == CONTACT_AUTO .and. allocated(tried%inner%undetermined)) idle_form = RUNGS(i)%form
       end do
    end subroutine climb
 
    !> A thin wedge lets out what nothing presses into it. With friction it may hold it as well, which the rungs would have found:
-   !> now the least motion goes as far as it must. What is found counts as that of a rung does.
+   !> now the least motion goes as far as it must.
    subroutine let_out(data, form, controls, store, results, solution)
       type(scene_data_t), intent(inout) :: data
       integer, intent(in) :: form                           !< in which a motion was idle; CONTACT_AUTO: in none
@@ -290,23 +280,39 @@ contains
       type(body_cache_t), intent(inout) :: store
       type(results_t), intent(inout) :: results
       type(contact_solution_t), intent(inout) :: solution
-      type(results_t) :: other
-      type(contact_solution_t) :: other_solution
-      type(status_t) :: status
+      type(contact_solution_t) :: tried
+      logical :: found
 
       if (.not. data%line%has_friction .or. form == CONTACT_AUTO) return
+      data%lets_out = .true.
+      call attempt(data, form, controls, store, results, solution, tried, found)
+      data%lets_out = .false.
+   end subroutine let_out
+
+   !> Solves once more. What is found counts when it converges and its law holds; else results and solution are as they were.
+   subroutine attempt(data, form, controls, store, results, solution, tried, found)
+      type(scene_data_t), intent(inout) :: data
+      integer, intent(in) :: form                           !< CONTACT_DENSE or CONTACT_SPARSE
+      type(controls_t), intent(in) :: controls              !< of this attempt
+      type(body_cache_t), intent(inout) :: store
+      type(results_t), intent(inout) :: results
+      type(contact_solution_t), intent(inout) :: solution
+      type(contact_solution_t), intent(out) :: tried        !< its solution, or last iterate
+      logical, intent(out) :: found
+      type(results_t) :: other
+      type(status_t) :: status
+
       call begin_results(results, other)
       if (form /= data%contact_form) then
          other%scene%contact_form = contact_form_name(form)
          other%scene%contact_reason = 'what was tried before found no solution'
       end if
-      data%lets_out = .true.
-      call solve_one_form(data, form, controls, store, other, other_solution, status)
-      data%lets_out = .false.
-      if (.not. is_solved(other, status)) return
-      solution = other_solution
+      call solve_one_form(data, form, controls, store, other, tried, status)
+      found = is_solved(other, status)
+      if (.not. found) return
+      solution = tried
       results = other
-   end subroutine let_out
+   end subroutine attempt
 
    !> Scene, and place in the history, of another attempt.
    pure subroutine begin_results(results, other)

@@ -61,7 +61,7 @@ contains
             end associate
             call add_motion(motion, fem%bodies%list(b(k)))
          end do
-         ! the sides of a slot are turned together, and so the rounding of turned digits makes no wedge of them either
+         ! the sides of a slot are turned in any case: even the rounding of coordinates with all digits makes a wedge of them
          if (is_free .and. (rubs(i) .or. .not. is_exact)) call turn_points(points(i)%sliding, fem%mesh, points(i))
       end do
    end subroutine let_slide
