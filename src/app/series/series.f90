@@ -12,7 +12,7 @@ module atrito_series
    use atrito_messages, only: add_warning, clear_messages, count_messages, SEVERITY_ERROR
    use atrito_model, only: observed_line_t
    use atrito_observations, only: observation_names
-   use atrito_observed_lines, only: list_observed
+   use atrito_build_model, only: list_observed
    use atrito_page, only: page_t, print_page, add_above_rule
    use atrito_patched_text, only: named_text_t, digest_of_texts
    use atrito_parameter_text, only: list_parameters

@@ -3,13 +3,12 @@ module atrito_pairing
    use atrito_faces, only: face_list_t, chain_report_t, order_chain
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
    use atrito_master, only: master_t, master_of_faces, master_of_segments, turn_master
-   use atrito_model, only: model_t, SURFACE_SEGMENTS, QUADRATURE_NODAL, QUADRATURE_MORTAR
+   use atrito_model, only: model_t, SURFACE_SEGMENTS, QUADRATURE_NODAL, QUADRATURE_MORTAR, elasticity_of
    use atrito_mortar_points, only: pair_by_mortar
    use atrito_nodal_points, only: pair_with_master
    use atrito_plane_state, only: compliance_matrix, COMPONENTS
    use atrito_points, only: contact_points_t, sliding_t
    use atrito_mesh, only: is_revolved
-   use atrito_section_elasticity, only: elasticity_of
    use atrito_sliding_motions, only: chords_t, list_chords, find_sliding, note_doubt, printed_grain, serves, adopted, sharpness
    use atrito_sorting, only: sorted_places
    implicit none (type, external)

@@ -3,9 +3,8 @@
 !> Its nodes are made with those of *NODE, in the order of the deck, its elements with those of *ELEMENT, its surfaces with
 !> those of *SURFACE; a context keeps the block in between.
 module atrito_build_block
-   use atrito_block, only: graded_lines, block_nodes, curved_nodes
+   use atrito_block_map, only: graded_lines, block_nodes, curved_nodes, has_arcs
    use atrito_block_joints, only: share_nodes, side_nodes
-   use atrito_block_map, only: has_arcs
    use atrito_block_spec, only: block_spec_t, read_block_spec, count_nodes, copy_offset
    use atrito_build_context, only: build_context_t, block_t, BLOCK_SIDES, add_context_block, note_places, invalidate_block
    use atrito_build_nodes, only: put_node_set

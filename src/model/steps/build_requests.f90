@@ -7,7 +7,7 @@ module atrito_build_requests
    use atrito_build_cuts, only: read_cut_card
    use atrito_build_paths, only: read_path_card
    use atrito_propagation, only: is_of_step
-   use atrito_foreign_words, only: variable_of_component
+   use atrito_foreign_keywords, only: variable_of_component
    use atrito_items, only: find_option, has_option, option_integer, option_real, option_text, option_word, refuse_option
    use atrito_kinds, only: ip, wp
    use atrito_model, only: requested_t, requests_t, step_t
