@@ -358,8 +358,7 @@ contains
       character(len=*), intent(in) :: text
       type(tally_t), intent(inout) :: tally
 
-      if (.not. tally%noted) call report_note(deck, token, 'N-IGNORED', '*'//trim(card%name)//': data without effect, '// &
-                                              text)
+      if (.not. tally%noted) call report_note(deck, token, 'N-IGNORED', '*'//trim(card%name)//': data without effect, '//text)
       tally%noted = .true.
    end subroutine note_once
 

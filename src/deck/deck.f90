@@ -212,8 +212,7 @@ contains
       is_quoted = .false.
       if (token%last <= token%first) return
       associate (first => token%first, last => token%last)
-         is_quoted = deck%sources(token%source)%text(first:first) == '"' .and. &
-                     deck%sources(token%source)%text(last:last) == '"'
+         is_quoted = deck%sources(token%source)%text(first:first) == '"' .and. deck%sources(token%source)%text(last:last) == '"'
       end associate
    end function is_quoted
 

@@ -1,7 +1,7 @@
 !> Names in an expression that are no arithmetic, with what stands in parentheses behind them: `u2(12)`, `max(mises, BEAM)`. What
 !> they mean is not known here.
 module atrito_expression_calls
-   use atrito_strings, only: string_t, same_name
+   use atrito_strings, only: string_t, replaced, same_name
    implicit none (type, external)
    private
    public :: call_t, argument_t, read_call, has_argument_of
@@ -96,22 +96,10 @@ contains
       allocate (longer(n + 1))                         ! gfortran leaks a text in an array constructor
       longer(:n) = list
       longer(n + 1)%first = i
-      longer(n + 1)%last = first + len_trim(replaced(text(first:last))) - 1
+      longer(n + 1)%last = first + len_trim(replaced(text(first:last), BLANKS, ' ')) - 1
       longer(n + 1)%text = text(i:longer(n + 1)%last)
       call move_alloc(longer, list)
    end subroutine add_argument
-
-   !> Tabs as blanks.
-   pure function replaced(text) result(plain)
-      character(len=*), intent(in) :: text
-      character(len=len(text)) :: plain
-      integer :: i
-
-      plain = text
-      do i = 1, len(text)
-         if (scan(text(i:i), BLANKS) == 1) plain(i:i) = ' '
-      end do
-   end function replaced
 
    !> The first character behind a place that is no blank; one behind the end when there is none.
    pure integer function first_behind(text, place) result(i)

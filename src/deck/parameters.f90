@@ -155,8 +155,7 @@ contains
          if (.not. ok) call report_fault(deck, expression, fault, coordinates, keyword)
       end if
       do i = 1, size(values, kind=ip)
-         call evaluate_expression(token_text(deck, expression), names, [x(:, i), known], values(i), fault, &
-                                  has_own_degree(deck))
+         call evaluate_expression(token_text(deck, expression), names, [x(:, i), known], values(i), fault, has_own_degree(deck))
          ok = .not. allocated(fault%text)
          if (ok) cycle
          if (fault%of_value) fault%text = fault%text//' at x = '//to_text(x(1, i))//', y = '//to_text(x(2, i))

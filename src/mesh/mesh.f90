@@ -51,12 +51,8 @@ contains
       integer(ip), intent(in) :: new_nodes, new_elements !< that will be added, >= 0
 
       if (.not. allocated(mesh%node_id)) allocate (mesh%node_id(0), mesh%x(2, 0))
-      if (.not. allocated(mesh%element_id)) then
-         allocate (mesh%element_id(0), mesh%shape(0), mesh%state(0), mesh%nodes(MOST_NODES, 0))
-      end if
-      if (mesh%n_nodes + new_nodes > size(mesh%node_id)) then
-         call resize_nodes(mesh, mesh%n_nodes + max(new_nodes, mesh%n_nodes/4))
-      end if
+      if (.not. allocated(mesh%element_id)) allocate (mesh%element_id(0), mesh%shape(0), mesh%state(0), mesh%nodes(MOST_NODES, 0))
+      if (mesh%n_nodes + new_nodes > size(mesh%node_id)) call resize_nodes(mesh, mesh%n_nodes + max(new_nodes, mesh%n_nodes/4))
       if (mesh%n_elements + new_elements > size(mesh%element_id)) then
          call resize_elements(mesh, mesh%n_elements + max(new_elements, mesh%n_elements/4))
       end if

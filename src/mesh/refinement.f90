@@ -93,8 +93,7 @@ contains
             if (refinement%face_edge(face, e) > 0) cycle
             n = n + 1
             refinement%face_edge(face, e) = n
-            refinement%edge_node(:, n) = [mesh%nodes(face, e), mesh%nodes(face_end(mesh, e, face), e), &
-                                          middle_node(mesh, e, face)]
+            refinement%edge_node(:, n) = [mesh%nodes(face, e), mesh%nodes(face_end(mesh, e, face), e), middle_node(mesh, e, face)]
             refinement%edge_element(1, n) = e
             call find_across(mesh, around, e, face, other, other_face)
             if (other == 0) cycle

@@ -425,8 +425,7 @@ contains
       if (.not. is_ok(status)) return
       call begin_pictures(command)
       allocate (pictures(0))
-      if (command%plot) call write_stability_plots(output_folder(command), origin%deck, model, limit, command%view, &
-                                                   pictures)
+      if (command%plot) call write_stability_plots(output_folder(command), origin%deck, model, limit, command%view, pictures)
       call compose_stability(command%names(1)%s, output_folder(command), limit, seconds, page, pictures)
       if (command%report) then
          call begin_series('limit', command%names(1)%s, output_folder(command), ['limit    ', 'mechanism'], pictures, report)

@@ -108,8 +108,7 @@ contains
       allocate (runs%study%probes(0))
       associate (row => runs%study%rows(probed_row(runs)))
          if (row%code /= STATUS_OK) return
-         list = pack([(i, i=1, size(PROBES, kind=ip))], &
-                     [row%has_delta, row%has_eps, row%has_stick_slope .and. .not. row%has_eps])
+         list = pack([(i, i=1, size(PROBES, kind=ip))], [row%has_delta, row%has_eps, row%has_stick_slope .and. .not. row%has_eps])
       end associate
       if (size(list) == 0) return
       call report_phase(runs%reporter, 'half of delta, half of eps')
@@ -156,9 +155,7 @@ contains
       if (task <= n) then
          associate (row => self%study%rows(task))
             call make_run(self%command, self%study, row, status)
-            if (is_ok(status) .and. .not. has_failed(row)) then
-               call time_again(self%command, self%study, row, self%is_first, status)
-            end if
+            if (is_ok(status) .and. .not. has_failed(row)) call time_again(self%command, self%study, row, self%is_first, status)
             call put_row(row, answer)
          end associate
          call put_status(answer, status)

@@ -274,14 +274,12 @@ contains
          origin = sweep%origin
          origin%not_converged = any(runs%code == STATUS_NOT_CONVERGED .or. (runs%is_written .and. .not. runs%is_whole))
          call find_observed(command, observed)
-         call write_sweep(output_folder(command), origin, plan%names, observed, runs, int(command%digits), status, &
-                          command%is_csv)
+         call write_sweep(output_folder(command), origin, plan%names, observed, runs, int(command%digits), status, command%is_csv)
          if (.not. is_ok(status)) return
          call begin_pictures(command)
          allocate (pictures(0))
          if (command%plot) call plot_sweep(command, plan, runs, origin%deck, pictures)
-         call compose_sweep(command%names(1)%s, plan%names, observed, runs, &
-                            output_folder(command), seconds, page, pictures)
+         call compose_sweep(command%names(1)%s, plan%names, observed, runs, output_folder(command), seconds, page, pictures)
          if (command%report) then
             call begin_series('sweep', command%names(1)%s, output_folder(command), ['sweep', 'runs '], pictures, report)
             call report_of_sweep(plan%names, runs, seconds, report)

@@ -139,9 +139,7 @@ contains
       type(gmsh_mesh_t), intent(inout) :: mesh !< lists of elements get this length
       integer(ip), intent(in) :: n_elements    !< >= those that there are
 
-      if (.not. allocated(mesh%element_id)) then
-         allocate (mesh%element_id(0), mesh%shape(0), mesh%part(0), mesh%nodes(MOST_NODES, 0))
-      end if
+      if (.not. allocated(mesh%element_id)) allocate (mesh%element_id(0), mesh%shape(0), mesh%part(0), mesh%nodes(MOST_NODES, 0))
       call resize_elements(mesh, n_elements)
    end subroutine trim_gmsh_mesh
 

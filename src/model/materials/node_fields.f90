@@ -321,9 +321,7 @@ contains
                                                               keyword=THICKNESS)
          return
       end if
-      if (.not. allocated(context%node_thickness)) then
-         allocate (context%node_thickness(context%model%mesh%n_nodes), source=0.0_wp)
-      end if
+      if (.not. allocated(context%node_thickness)) allocate (context%node_thickness(context%model%mesh%n_nodes), source=0.0_wp)
       allocate (is_reported(context%model%mesh%n_nodes), source=.false.)
       first = 0
       associate (mesh => context%model%mesh)

@@ -205,8 +205,7 @@ contains
       integer(ip) :: i
 
       associate (n => size(grid, kind=ip), width => size(grid, 1, kind=ip), height => size(grid, 2, kind=ip))
-         outline = [(i, i=1, width), (i, i=n - width + 1, n), &
-                    (1 + i*width, i=1, height - 2), ((i + 1)*width, i=1, height - 2)]
+         outline = [(i, i=1, width), (i, i=n - width + 1, n), (1 + i*width, i=1, height - 2), ((i + 1)*width, i=1, height - 2)]
       end associate
    end function outline_of
 

@@ -250,8 +250,7 @@ contains
                                          expected='positive node numbers, at most '//to_text(most_nodes())//' nodes', &
                                          keyword='NFILL')
       end associate
-      if (ok) ok = fits_memory(context%deck%tokens(line%first_token), context, int(n - 1, lp)*size(from, kind=lp), 0_lp, &
-                               'NFILL')
+      if (ok) ok = fits_memory(context%deck%tokens(line%first_token), context, int(n - 1, lp)*size(from, kind=lp), 0_lp, 'NFILL')
    end subroutine read_nfill_line
 
    !> Nodes between each two, equally spaced, numbered by `step` from the first of the two.

@@ -192,8 +192,7 @@ contains
                '   # of the displacements, also of the raster: another one needs a run with --plot-scale'//LF// &
                'heading = '//quoted(drawing%heading))
       call put_layout(plots, layout)
-      if (field%contour%of_elements) title = title//', share of each element, together '// &
-                                             percent_of(drawing%results)
+      if (field%contour%of_elements) title = title//', share of each element, together '//percent_of(drawing%results)
       call put(plots, 'set label 1 heading."\n'//title//'; '//displacement_text(drawing)// &
                '" at screen 0.5, screen up(height - 20) center noenhanced')
       call put_bar(plots, layout, field, bar)
