@@ -6,11 +6,10 @@ module atrito_sweep_tables
    use atrito_read_table, only: table_file_t, read_table, table_path, find_column, item_text
    use atrito_status, only: status_t, STATUS_OK
    use atrito_strings, only: string_t, append_string, join, to_text
-   use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_integers, add_words
-   use atrito_table_text, only: write_table_set
+   use atrito_table, only: table_t, begin_table, add_reals, add_integers, add_words
    implicit none (type, external)
    private
-   public :: sweep_run_t, read_summary, row_of_quantity, write_sweep, compose_sweep, last_increment
+   public :: sweep_run_t, read_summary, row_of_quantity, build_sweep, build_runs, compose_sweep, last_increment
 
    !> One run of a sweep.
    type :: sweep_run_t
@@ -56,23 +55,6 @@ contains
       row = 0
    end function row_of_quantity
 
-   !> Writes sweep.tab and runs.tab. status: STATUS_FILE.
-   subroutine write_sweep(folder, origin, names, observed, runs, digits_of_tables, status, is_csv)
-      character(len=*), intent(in) :: folder           !< of the sweep
-      type(origin_t), intent(in) :: origin             !< for the heads of the tables
-      type(string_t), intent(in) :: names(:)           !< the parameters
-      type(string_t), intent(in) :: observed(:)        !< quantities of the step that have a column of their own
-      type(sweep_run_t), intent(in) :: runs(:)         !< in the order of the sweep
-      integer, intent(in) :: digits_of_tables          !< significant ones of reals
-      type(status_t), intent(out) :: status            !< STATUS_OK or STATUS_FILE
-      logical, intent(in), optional :: is_csv          !< left out: .false.
-      type(table_t) :: tables(2)
-
-      call build_sweep(names, observed, runs, tables(1))
-      call build_runs(names, observed, runs, tables(2))
-      call write_table_set(folder, tables, origin, digits_of_tables, status, is_csv)
-   end subroutine write_sweep
-
    !> The first row of the last increment.
    pure integer(ip) function last_increment(summary) result(row)
       type(table_file_t), intent(in) :: summary  !< summary.tab of a run; may have no rows
@@ -91,9 +73,9 @@ contains
 
    !> The parameters, then the columns of summary.tab, then what is observed in the increment.
    subroutine build_sweep(names, observed, runs, table)
-      type(string_t), intent(in) :: names(:), observed(:)
-      type(sweep_run_t), intent(in) :: runs(:)
-      type(table_t), intent(out) :: table
+      type(string_t), intent(in) :: names(:), observed(:) !< the parameters; quantities of the step that have a column of their own
+      type(sweep_run_t), intent(in) :: runs(:)            !< in the order of the sweep
+      type(table_t), intent(out) :: table                 !< 'sweep'
       integer(ip), allocatable :: of_row(:), step(:), pair(:), increment(:)
       type(string_t), allocatable :: quantities(:), amounts(:)
       integer(ip) :: i, j, n
@@ -155,9 +137,9 @@ contains
 
    !> A row a run: how it ended, where it is, and what is observed at its end.
    subroutine build_runs(names, observed, runs, table)
-      type(string_t), intent(in) :: names(:), observed(:)
-      type(sweep_run_t), intent(in) :: runs(:)
-      type(table_t), intent(out) :: table
+      type(string_t), intent(in) :: names(:), observed(:) !< as of build_sweep
+      type(sweep_run_t), intent(in) :: runs(:)            !< in the order of the sweep
+      type(table_t), intent(out) :: table                 !< 'runs'
       type(string_t) :: folders(size(runs))
       integer(ip) :: i, j, n
 

@@ -20,9 +20,10 @@ module atrito_study
    use atrito_study_plan, only: plan_study
    use atrito_study_plot, only: write_study_plot
    use atrito_study_runs, only: find_probe, make_command, has_failed, put_row, take_row, PROBES, make_run, time_again
-   use atrito_study_table, only: write_study, compose_study
+   use atrito_study_table, only: build_study, compose_study
    use atrito_study_words, only: judge_study
-   use atrito_table, only: origin_t
+   use atrito_table, only: origin_t, table_t
+   use atrito_table_text, only: write_table_set
    implicit none (type, external)
    private
    public :: run_study, serve_study
@@ -205,6 +206,7 @@ contains
       type(origin_t), intent(inout) :: origin
       type(study_t), intent(inout) :: study
       type(status_t), intent(out) :: status
+      type(table_t) :: tables(1)
       type(page_t) :: page
       type(report_t) :: report
       type(command_t) :: one
@@ -214,7 +216,8 @@ contains
       study%rounding = max(study%rounding, 10.0_wp**(1 - command%digits))
       call judge_study(study)
       origin%not_converged = any(study%rows%code == STATUS_NOT_CONVERGED)
-      call write_study(output_folder(command), origin, study, int(command%digits), status, command%is_csv)
+      call build_study(study, tables(1))
+      call write_table_set(output_folder(command), tables, origin, int(command%digits), status, command%is_csv)
       if (.not. is_ok(status)) return
       call begin_pictures(command)
       title = origin%deck
