@@ -2,7 +2,7 @@
 module atrito_older_results
    use atrito_files, only: file_exists, read_file
    use atrito_messages, only: add_note
-   use atrito_provenance, only: provenance_t
+   use atrito_model, only: provenance_t
    use atrito_read_table, only: comment_of, table_path
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)

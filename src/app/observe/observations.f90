@@ -1,8 +1,7 @@
 !> The expressions of *OBSERVE and --observe: read once against the model, evaluated at the end of each increment.
 module atrito_observations
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-   use atrito_expression_calls, only: call_t
-   use atrito_expression_names, only: is_name
+   use atrito_expression_names, only: call_t, is_name
    use atrito_expressions, only: evaluate_expression, expression_fault_t, list_calls
    use atrito_kinds, only: ip, is_nan, wp
    use atrito_linear_quantity, only: linear_quantity_t, POTENTIAL_ENERGY

@@ -15,7 +15,7 @@ module atrito_build_lines
    use atrito_id_map, only: add_id, find_id
    use atrito_items, only: has_option, option_text, option_word
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: signed_area
+   use atrito_mesh, only: signed_area, turned_nodes
    use atrito_model, only: surface_t
    use atrito_name_list, only: name_list_t, add_name, find_name, has_name
    use atrito_number_list, only: number_list_t, add_number, add_numbers, numbers_of
@@ -24,7 +24,6 @@ module atrito_build_lines
    use atrito_refined_members, only: face_on_side, fine_elements
    use atrito_sets, only: find_set, grow_set, members_of
    use atrito_strings, only: to_text
-   use atrito_turned_elements, only: turned_nodes
    implicit none (type, external)
    private
    public :: is_line_card, read_lines, is_line_item, turn_elements, read_curves, put_curve_surfaces, take_node_surface, add_surface
