@@ -128,11 +128,8 @@ contains
       integer(ip), intent(in) :: column, row        !< from 1, among the rows that are kept
       character(len=:), allocatable :: text
 
-      if (top%table%kind(column, row) == ITEM_REAL) then
-         text = number(top%table%value(column, row), SHOWN_DIGITS)
-      else
-         text = item_text(top%table, column, row)
-      end if
+      text = item_text(top%table, column, row)
+      if (top%table%kind(column, row) == ITEM_REAL) text = number(top%table%value(column, row), SHOWN_DIGITS)
    end function shown_item
 
    !> Dimension of a quantity of a table with a row a quantity, from remarks as `[F L]: strain_energy external_work`; '' where the

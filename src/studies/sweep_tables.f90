@@ -9,7 +9,7 @@ module atrito_sweep_tables
    use atrito_table, only: table_t, begin_table, add_reals, add_integers, add_words
    implicit none (type, external)
    private
-   public :: sweep_run_t, read_summary, row_of_quantity, build_sweep, build_runs, compose_sweep, last_increment
+   public :: sweep_run_t, read_summary, row_of_quantity, summary_value, build_sweep, build_runs, compose_sweep, last_increment
 
    !> One run of a sweep.
    type :: sweep_run_t
@@ -54,6 +54,18 @@ contains
       end do
       row = 0
    end function row_of_quantity
+
+   !> The value of a quantity of the first pair, or of the step, in the last increment.
+   pure real(wp) function summary_value(summary, quantity, missing) result(value)
+      type(table_file_t), intent(in) :: summary  !< summary.tab of a run
+      character(len=*), intent(in) :: quantity   !< in its column quantity
+      real(wp), intent(in) :: missing            !< where it has none
+      integer(ip) :: row
+
+      row = row_of_quantity(summary, quantity)
+      value = missing
+      if (row > 0) value = summary%value(find_column(summary, 'value'), row)
+   end function summary_value
 
    !> The first row of the last increment.
    pure integer(ip) function last_increment(summary) result(row)
@@ -141,8 +153,10 @@ contains
       type(sweep_run_t), intent(in) :: runs(:)            !< in the order of the sweep
       type(table_t), intent(out) :: table                 !< 'runs'
       type(string_t) :: folders(size(runs))
+      real(wp) :: nan
       integer(ip) :: i, j, n
 
+      nan = ieee_value(1.0_wp, ieee_quiet_nan)
       n = size(runs, kind=ip)
       do i = 1, n
          folders(i)%s = runs(i)%folder
@@ -155,21 +169,11 @@ contains
       call add_integers(table, 'exit', [(int(runs(i)%code, ip), i=1, n)])
       call add_integers(table, 'factorisations', [(runs(i)%factorisations, i=1, n)])
       do i = 1, size(observed, kind=ip)
-         call add_reals(table, observed(i)%s, 'mixed', [(value_at_end(runs(j), observed(i)%s), j=1, n)], 0.0_wp)
+         call add_reals(table, observed(i)%s, 'mixed', [(merge(summary_value(runs(j)%summary, observed(i)%s, nan), nan, &
+                                                               runs(j)%is_whole), j=1, n)], 0.0_wp)
       end do
       call add_words(table, 'folder', '-', folders, on_the_left=.true.)
    end subroutine build_runs
-
-   !> A value of the summary; nan where there is none, or none of the end of the history.
-   pure real(wp) function value_at_end(run, quantity) result(value)
-      type(sweep_run_t), intent(in) :: run
-      character(len=*), intent(in) :: quantity
-      integer(ip) :: row
-
-      row = row_of_quantity(run%summary, quantity)
-      value = ieee_value(1.0_wp, ieee_quiet_nan)
-      if (row > 0 .and. run%is_whole) value = run%summary%value(find_column(run%summary, 'value'), row)
-   end function value_at_end
 
    !> The closing lines: a row a run, what is observed first, as far as there is room, and the usual quantities of the first contact
    !> pair behind it.

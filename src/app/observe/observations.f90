@@ -18,7 +18,7 @@ module atrito_observations
    use atrito_summary, only: all_step_quantities, quantity_t
    implicit none (type, external)
    private
-   public :: observations_t, read_observations, observation_names
+   public :: observations_t, read_observations, observation_name, observation_names
 
    !> One of them.
    type :: observation_t
@@ -161,9 +161,9 @@ contains
       end associate
    end subroutine find_bound
 
-   !> NAME of `NAME=EXPRESSION`.
+   !> NAME of `NAME=EXPRESSION`, or of itself.
    pure function observation_name(text) result(name)
-      character(len=*), intent(in) :: text
+      character(len=*), intent(in) :: text             !< as the user wrote it
       character(len=:), allocatable :: name
 
       name = trim(adjustl(text))

@@ -173,11 +173,8 @@ contains
 
       i = place_of(mesh%name_keys, key_of(dim, tag))
       if (size(mesh%names) == 0) i = 0                 ! the second list was empty
-      if (i > 0) then
-         name = mesh%names(i)%name
-      else
-         name = 'Physical'//trim(ENTITY(dim))//to_text(tag)
-      end if
+      name = 'Physical'//trim(ENTITY(dim))//to_text(tag)
+      if (i > 0) name = mesh%names(i)%name
    end function group_name
 
    !> The name of an entity.

@@ -260,10 +260,8 @@ contains
       type(rigid_body_t), intent(in) :: body           !< its node is not yet one
       logical :: known
 
-      associate (n => context%rigid_bodies%n)
-         context%model%rigid_bodies(n + 1) = body
-         call add_id(context%rigid_bodies, body%node, n + 1, known)
-      end associate
+      context%model%rigid_bodies(context%rigid_bodies%n + 1) = body
+      call add_id(context%rigid_bodies, body%node, context%rigid_bodies%n + 1, known)
    end subroutine append_rigid_body
 
    !> The nodes that carry the motion of a rigid body: at its reference node, and at its size from that along 1 and along 2.

@@ -151,10 +151,8 @@ contains
       integer(ip) :: i
 
       do i = 1, faces%n
-         associate (e => faces%element(i))
-            associate (section => model%sections(model%section_of(e)))
-               c = compliance_matrix(elasticity_of(section, model%materials(section%material)), model%mesh%state(e))
-            end associate
+         associate (section => model%sections(model%section_of(faces%element(i))))
+            c = compliance_matrix(elasticity_of(section, model%materials(section%material)), model%mesh%state(faces%element(i)))
          end associate
          compliance(i) = 0.5_wp*(c(1, 1) + c(2, 2))    ! of an isotropic material they are the same
       end do

@@ -179,11 +179,8 @@ contains
       real(wp), allocatable, intent(in) :: breaks(:)   !< the inner lines
       real(wp) :: t(0:order*n), lines(0:n)
 
-      if (allocated(breaks)) then
-         lines = [0.0_wp, breaks, 1.0_wp]
-      else
-         lines = graded_lines(n, grade, of_halves)
-      end if
+      if (allocated(breaks)) lines = [0.0_wp, breaks, 1.0_wp]
+      if (.not. allocated(breaks)) lines = graded_lines(n, grade, of_halves)
       t(0::order) = lines
       if (order == 2) t(1::2) = 0.5_wp*(lines(:n - 1) + lines(1:))
    end function node_lines

@@ -67,15 +67,12 @@ contains
       integer(ip), intent(in) :: id
       real(wp), intent(in) :: x(2)                     !< as it stands there [L]
       integer(ip), intent(in) :: token                 !< of the deck: its number
+      real(wp) :: place(2)
       logical :: ok
 
-      associate (scope => context%deck%tokens(token)%scope)
-         if (scope > 0) then
-            call place_node(context, id, moved(context%motions(scope), x), token, ok, 'NODE')
-         else
-            call place_node(context, id, x, token, ok, 'NODE')
-         end if
-      end associate
+      place = x
+      if (context%deck%tokens(token)%scope > 0) place = moved(context%motions(context%deck%tokens(token)%scope), x)
+      call place_node(context, id, place, token, ok, 'NODE')
    end subroutine place_moved_node
 
    !> A line of *NODE that is not just plain numbers: number, x, y[, z].

@@ -205,11 +205,8 @@ contains
       type(results_t), intent(in) :: results
       character(len=:), allocatable :: text
 
-      if (results%error_bound%exists) then
-         text = 'at most '//to_text(results%error_bound%percent, 3)//' %'
-      else
-         text = to_text(results%error_estimate, 3)//' %'
-      end if
+      text = to_text(results%error_estimate, 3)//' %'
+      if (results%error_bound%exists) text = 'at most '//to_text(results%error_bound%percent, 3)//' %'
    end function percent_of
 
    !> Colours, range and marks of the bar.
