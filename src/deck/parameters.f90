@@ -6,7 +6,7 @@ module atrito_parameters
    use atrito_diagnostics, only: report_error
    use atrito_expression_names, only: is_name, is_reserved_name, next_name
    use atrito_expressions, only: expression_fault_t, evaluate_expression
-   use atrito_growing_text, only: growing_text_t, append_text, take_text
+   use atrito_growth, only: growing_text_t, append_text, take_text
    use atrito_items, only: LONGEST_NAME
    use atrito_kinds, only: ip, wp
    use atrito_lexer, only: find_equals

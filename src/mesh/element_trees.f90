@@ -17,8 +17,7 @@
 !> Trees as words, for decks: of an element a letter a cell, C where it is cut and L where it is a leaf, each followed by those of
 !> its parts; leaves at the end are left out. CLC is an element that is cut, and its second part, too.
 module atrito_element_trees
-   use atrito_growing_text, only: growing_text_t, append_text
-   use atrito_growth, only: make_room, resize
+   use atrito_growth, only: growing_text_t, append_text, make_room, resize
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t, side_count
    implicit none (type, external)

@@ -5,13 +5,12 @@ module atrito_clearance
    use atrito_build_context, only: build_context_t, count_cards, place_text
    use atrito_deck, only: card_t, data_line_t, token_t, last_item, line_item, keyword_name, option_t, count_lines
    use atrito_diagnostics, only: report_error, report_note
-   use atrito_growth, only: make_room
+   use atrito_growth, only: make_room, number_list_t, add_numbers, numbers_of
    use atrito_id_map, only: id_map_t, add_id, find_id
    use atrito_items, only: get_real, has_option, option_real, option_text, find_option, get_name
    use atrito_kinds, only: ip, wp, lp
    use atrito_mesh, only: face_nodes
    use atrito_name_list, only: find_name
-   use atrito_number_list, only: number_list_t, add_numbers, numbers_of
    use atrito_parameters, only: evaluate_function
    use atrito_points, only: contact_points_t
    use atrito_references, only: find_nodes, report_unknown

@@ -13,7 +13,7 @@ module atrito_build_block
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: add_nodes, add_block, reserve_mesh, is_hollow, elements_of_square
    use atrito_model_memory, only: fits_memory
-   use atrito_number_list, only: number_list_t, add_numbers, numbers_of
+   use atrito_growth, only: number_list_t, add_numbers, numbers_of
    use atrito_sets, only: grow_set
    use atrito_strings, only: to_text
    implicit none (type, external)

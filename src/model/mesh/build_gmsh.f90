@@ -16,7 +16,7 @@ module atrito_build_gmsh
    use atrito_kinds, only: ip, lp
    use atrito_mesh, only: add_element, add_node, find_node, reserve_mesh, turned_nodes, is_clockwise
    use atrito_model_memory, only: fits_memory
-   use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_growth, only: number_list_t, add_number, numbers_of
    use atrito_plane_state, only: PLANE_STRAIN, PLANE_STRESS, AXISYMMETRIC
    use atrito_sets, only: grow_set
    use atrito_strings, only: to_text

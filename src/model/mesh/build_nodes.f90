@@ -9,7 +9,7 @@ module atrito_build_nodes
    use atrito_mesh, only: add_node, find_node
    use atrito_model_memory, only: fits_memory, most_nodes
    use atrito_motion, only: moved
-   use atrito_number_list, only: number_list_t, add_numbers, numbers_of
+   use atrito_growth, only: number_list_t, add_numbers, numbers_of
    use atrito_plain_numbers, only: read_plain_nodes, SLICE
    use atrito_references, only: get_id, find_nodes, find_one_node
    use atrito_ranges, only: ranges_t, add_to_ranges => add_numbers

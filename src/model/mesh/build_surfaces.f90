@@ -15,7 +15,7 @@ module atrito_build_surfaces
    use atrito_model, only: surface_t, SURFACE_SEGMENTS
    use atrito_motion, only: moved
    use atrito_name_list, only: add_name, find_name, has_name
-   use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_growth, only: number_list_t, add_number, numbers_of
    use atrito_numbers, only: read_integer
    use atrito_ranges, only: numbers_among
    use atrito_references, only: find_elements, check_faces

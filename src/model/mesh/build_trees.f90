@@ -6,7 +6,7 @@ module atrito_build_trees
    use atrito_deck, only: data_line_t, deck_t, keyword_name, line_item, token_t, token_text
    use atrito_diagnostics, only: report_error
    use atrito_element_trees, only: begin_trees, cut_all, cut_leaves, element_trees_t, list_leaves, code_of_tree, is_code, take_code
-   use atrito_growing_text, only: growing_text_t, append_text
+   use atrito_growth, only: growing_text_t, append_text
    use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_mesh, only: face_end, side_count
    use atrito_model, only: model_t
