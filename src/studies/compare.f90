@@ -2,9 +2,8 @@
 !>
 !> A number differs if |a-b| > rtol S + atol, S the largest |value| of its column over all increments; of its quantity and pair in
 !> summary.tab; of its contact pair and step for pressure, shear and slip; of its pair in history.tab; of a family of columns in
-!> bodies.tab, joints.tab, sections.tab and history.tab. A column may have rules of its own
-!> (atrito_compare_rules). Integers and words must be equal; nan equals nan. timing, iterations and adapt are left
-!> out; the equilibrium residual must be small in both.
+!> bodies.tab, joints.tab, sections.tab and history.tab. A column may have rules of its own (atrito_compare_rules). Integers and
+!> words must be equal; nan equals nan. timing, iterations and adapt are left out; the equilibrium residual must be small in both.
 module atrito_compare
    use atrito_column_scales, only: kind_of, columns_of_scale, row_scales, summary_scales, moment_scale, is_of_pair, is_number
    use atrito_compare_rules, only: rule_t, rules_t, rule_of, takes_table, ANY_NAME, COMPARED_TABLES
