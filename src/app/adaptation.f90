@@ -192,8 +192,7 @@ contains
       character(len=:), allocatable :: text
 
       associate (n => size(adaptation%meshes), meshes => adaptation%meshes)
-         text = 'mesh '//to_text(int(n, ip))//': '//to_text(meshes(n)%n_elements)//' elements, error '// &
-                percent_text(meshes(n))
+         text = 'mesh '//to_text(int(n, ip))//': '//to_text(meshes(n)%n_elements)//' elements, error '//percent_text(meshes(n))
       end associate
    end function mesh_text
 

@@ -4,9 +4,8 @@ module atrito_console
    use, intrinsic :: iso_fortran_env, only: error_unit
    use atrito_command_line, only: command_t
    use atrito_kinds, only: ip
-   use atrito_message_json, only: json_of_message
-   use atrito_messages, only: message_t, count_messages, get_message, format_message, place_of_message, severity_word, &
-                              SEVERITY_ERROR, SEVERITY_NOTE, MOST_ERRORS
+   use atrito_messages, only: json_of_message, message_t, count_messages, get_message, format_message, place_of_message, &
+                              severity_word, SEVERITY_ERROR, SEVERITY_NOTE, MOST_ERRORS
    use atrito_reporter, only: reporter_t, begin_line, PROGRESS_ALL, PROGRESS_PHASES
    use atrito_status, only: status_t, STATUS_USAGE, STATUS_FILE
    use atrito_strings, only: string_t, to_text

@@ -1,10 +1,10 @@
 !> Does what the command line asks for: reads, solves, writes, and tells how it went.
 module atrito_driver
    use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
+   use, intrinsic :: iso_c_binding, only: c_int, c_int64_t
    use atrito_bash_completion, only: compose_bash_completion
-   use atrito_blas_info, only: choose_blas_kernels, set_blas_threads
+   use atrito_blas_info, only: choose_blas_kernels, set_blas_threads, blas_buffer_bytes, claim_blas_buffers
    use atrito_body_cache, only: body_cache_t
-   use atrito_screen, only: compose_check
    use atrito_check_plots, only: write_check_plots
    use atrito_command_line, only: command_t, confine_command, output_folder, parse_command, wrong, wants_json, fetch_arguments, &
                                   TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_LIMIT, &
@@ -13,38 +13,45 @@ module atrito_driver
    use atrito_compare_rules, only: leave_out, read_rules, take_tables
    use atrito_console, only: print_line, print_lines, print_message, print_messages, print_status
    use atrito_files, only: check_all_own
-   use atrito_help_pages, only: compose_man_page, compose_options, compose_topic, compose_usage
-   use atrito_help, only: help_overview, help_keyword, help_manual
    use atrito_folder_claim, only: folder_claim_t, claim_folder, release_folder
+   use atrito_help, only: help_overview, help_keyword, help_manual
+   use atrito_help_pages, only: compose_man_page, compose_options, compose_topic, compose_usage
    use atrito_keyword_table, only: keyword_table, keyword_names
-   use atrito_kinds, only: ip
-   use atrito_load_model, only: load_model, prepare_observations
+   use atrito_kinds, only: ip, lp
    use atrito_libraries, only: library_t, add_libraries, version_lines, LOADED
-   use atrito_means, only: secure_means
-   use atrito_messages, only: message_t, add_warning, clear_messages
+   use atrito_load_model, only: load_model, prepare_observations
+   use atrito_memory, only: memory_text
+   use atrito_messages, only: message_t, add_warning, clear_messages, SEVERITY_ERROR, SEVERITY_WARNING
    use atrito_model, only: model_t
    use atrito_model_memory, only: allow_large_meshes
    use atrito_mpi, only: has_mpi, mpi_name, rank_count
    use atrito_mumps, only: has_mumps, mumps_trouble, mumps_version
+   use atrito_observations, only: observations_t
    use atrito_page, only: page_t, add_item, plural, print_page
    use atrito_plot_files, only: plot_folder, list_plots, PLOTS_OF_CHECK
    use atrito_reporter, only: reporter_t
    use atrito_results, only: scene_t
-   use atrito_observations, only: observations_t
    use atrito_run, only: run_deck, solve_options
+   use atrito_screen, only: compose_check
    use atrito_solve, only: survey_scene
    use atrito_stability_limit, only: run_limit
-   use atrito_status, only: status_t, is_ok, STATUS_OK, STATUS_USAGE, STATUS_FILE, STATUS_INTERNAL
-   use atrito_strings, only: string_t, join, upper_case, nearest_names
+   use atrito_status, only: status_t, is_ok, STATUS_OK, STATUS_USAGE, STATUS_FILE, STATUS_INTERNAL, STATUS_DECK
+   use atrito_strings, only: string_t, join, upper_case, nearest_names, to_text
    use atrito_study, only: run_study
    use atrito_sweep, only: run_sweep
-   use atrito_system, only: guard_interrupts, keep_freed_memory
+   use atrito_system, only: guard_interrupts, keep_freed_memory, address_space_limit, c_count_threads, c_has_address_space, &
+                            stack_limit, stack_of_thread
    use atrito_threads, only: set_threads
    use atrito_timers, only: reset_timers
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
    implicit none (type, external)
    private
    public :: begin_program, run_program
+
+   !> The stack that the program wants; the least with which scenes were solved is 192 KiB.
+   integer(lp), parameter :: LEAST_STACK = 2_lp**19
+   !> Address space to read a deck with.
+   integer(lp), parameter :: TO_BEGIN = 2_lp**22
 
 contains
 
@@ -265,5 +272,76 @@ contains
       call print_message(error, json)
       if (.not. json) call print_line('    see:      '//see, error_unit)
    end subroutine print_wrong
+
+   !> What a run needs of the process besides memory for its scene, asked before anything is computed: libraries that do not get it
+   !> hang or end the program.
+   !>
+   !> The stack, the threads, and of each thread the buffer of BLAS. Fewer threads than were asked for are told and taken.
+   !> code: STATUS_DECK for want of memory, which is told.
+   subroutine secure_means(command, code)
+      type(command_t), intent(inout) :: command  !< its threads may become fewer
+      integer, intent(out) :: code               !< STATUS_OK or STATUS_DECK
+      integer(ip) :: n
+
+      code = STATUS_DECK
+      if (stack_limit() >= 0 .and. stack_limit() < LEAST_STACK) then
+         call print_problem(command, SEVERITY_ERROR, 'E-MEMORY', 'the stack may have '//memory_text(stack_limit())// &
+                            ' (ulimit -s), '//memory_text(LEAST_STACK)//' are needed')
+         return
+      end if
+      if (address_space_limit() >= 0) then
+         if (.not. has_buffers(command)) return
+      end if
+      code = STATUS_OK
+      if (command%threads <= 1) return
+      n = 1 + int(c_count_threads(int(command%threads - 1, c_int)), ip)
+      if (n == command%threads) return
+      call print_problem(command, SEVERITY_WARNING, 'W-THREADS', 'the system gives '//to_text(n)//' of '// &
+                         to_text(command%threads)//' threads (ulimit -u, or the limit of a job); the results are the same')
+      command%threads = n
+   end subroutine secure_means
+
+   !> Whether BLAS can have its buffers under the limit of the address space; it has them then.
+   logical function has_buffers(command)
+      type(command_t), intent(in) :: command
+      integer(ip) :: fits
+
+      do fits = command%threads, 1, -1
+         if (c_has_address_space(int(bytes_of(fits), c_int64_t)) == 1) exit
+      end do
+      has_buffers = fits == command%threads
+      if (has_buffers) then
+         if (blas_buffer_bytes() > 0) call claim_blas_buffers(fits)
+      else if (fits == 0) then
+         call print_problem(command, SEVERITY_ERROR, 'E-MEMORY', 'the linear algebra needs '//memory_text(bytes_of(1_ip))// &
+                    ' of address space to begin with; ulimit -v is '//memory_text(address_space_limit())//', and does not leave it')
+      else
+         call print_problem(command, SEVERITY_ERROR, 'E-MEMORY', to_text(command%threads)//' threads need '// &
+                            memory_text(bytes_of(command%threads))//' of address space to begin with; ulimit -v is '// &
+                            memory_text(address_space_limit())//', and does not leave it; --threads '//to_text(fits)//' fits')
+      end if
+
+   contains
+
+      integer(lp) function bytes_of(n)
+         integer(ip), intent(in) :: n
+
+         bytes_of = TO_BEGIN + n*blas_buffer_bytes() + (n - 1)*stack_of_thread()
+      end function bytes_of
+
+   end function has_buffers
+
+   subroutine print_problem(command, severity, id, text)
+      type(command_t), intent(in) :: command
+      integer, intent(in) :: severity
+      character(len=*), intent(in) :: id, text
+      type(message_t) :: message
+
+      message%severity = severity
+      message%id = id
+      message%file = PROGRAM_NAME
+      message%text = text
+      call print_message(message, command%json)
+   end subroutine print_problem
 
 end module atrito_driver

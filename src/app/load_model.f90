@@ -18,7 +18,7 @@ module atrito_load_model
    use atrito_model, only: model_t
    use atrito_observations, only: observations_t, read_observations
    use atrito_older_results, only: note_older_results
-   use atrito_parameter_text, only: list_parameters
+   use atrito_parameters, only: list_parameters
    use atrito_patched_text, only: digest_of_texts
    use atrito_plane_state, only: FULL_STATE
    use atrito_reader, only: read_deck

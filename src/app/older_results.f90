@@ -2,8 +2,8 @@
 module atrito_older_results
    use atrito_files, only: file_exists, read_file
    use atrito_messages, only: add_note
-   use atrito_provenance, only: provenance_t
-   use atrito_read_table, only: table_path
+   use atrito_model, only: provenance_t
+   use atrito_read_table, only: comment_of, table_path
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
@@ -37,16 +37,16 @@ contains
       character(len=:), allocatable :: text, older, newer
 
       text = ''
-      older = line_of(table, 'deck')
+      older = comment_of(table, 'deck')
       if (len(older) == 0) return
       if (older /= deck) text = ', of the deck '//older
       if (older == deck .and. allocated(provenance%parameters)) then
-         older = line_of(table, 'parameters')
+         older = comment_of(table, 'parameters')
          text = other_values(older, provenance%parameters)
       end if
       newer = ''
       if (allocated(provenance%options)) newer = provenance%options
-      older = line_of(table, 'options')
+      older = comment_of(table, 'options')
       if (older /= newer) then
          if (len(older) == 0) text = text//', without options'
          if (len(older) > 0) text = text//', with the options '//older
@@ -54,25 +54,11 @@ contains
       if (len(text) == 0) then
          newer = ''
          if (allocated(provenance%digest)) newer = provenance%digest
-         older = line_of(table, 'digest')
+         older = comment_of(table, 'digest')
          if (older /= newer) text = ', of this deck before it changed'
       end if
       if (len(text) > 0) text = ' ('//text(3:)//')'
    end function difference_text
-
-   !> What stands behind `# word: ` in the head of a table; empty where there is no such line.
-   pure function line_of(table, word) result(line)
-      character(len=*), intent(in) :: table, word
-      character(len=:), allocatable :: line
-      integer :: first, last
-
-      line = ''
-      first = index(table, achar(10)//'# '//word//': ')
-      if (first == 0) return
-      first = first + len(word) + 5
-      last = index(table(first:), achar(10))
-      if (last > 0) line = table(first:first + last - 2)
-   end function line_of
 
    !> `, push = 9, here 90, ...`: parameters whose values are others, of lists as `nu = 0.3, push = 9 (--set)`.
    pure function other_values(older, newer) result(text)

@@ -3,7 +3,7 @@ module atrito_card_data
    use atrito_kinds, only: ip, wp
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, is_empty_token, line_item, last_item
    use atrito_diagnostics, only: report_error, report_note
-   use atrito_foreign_words, only: is_foreign_variable, variable_of_component, may_be_empty
+   use atrito_foreign_keywords, only: is_foreign_variable, variable_of_component, may_be_empty
    use atrito_items, only: get_real, has_option, option_word
    use atrito_keyword, only: form_t, item_t, ANY_NUMBER, KIND_INTEGER, KIND_REAL, KIND_WORD
    use atrito_keyword_table, only: find_choice, choice_names
@@ -358,8 +358,7 @@ contains
       character(len=*), intent(in) :: text
       type(tally_t), intent(inout) :: tally
 
-      if (.not. tally%noted) call report_note(deck, token, 'N-IGNORED', '*'//trim(card%name)//': data without effect, '// &
-                                              text)
+      if (.not. tally%noted) call report_note(deck, token, 'N-IGNORED', '*'//trim(card%name)//': data without effect, '//text)
       tally%noted = .true.
    end subroutine note_once
 

@@ -98,8 +98,7 @@ contains
       if (follows_only(deck, order, card)) then
          card%ok = .false.
       else if (order%n_steps > 0 .and. .not. order%in_step) then
-         call refuse_card(deck, card, 'E-STEP', '*'//trim(card%name)//' stands after an *END STEP', &
-                          'a *STEP, or nothing behind it')
+         call refuse_card(deck, card, 'E-STEP', '*'//trim(card%name)//' stands after an *END STEP', 'a *STEP, or nothing behind it')
       else if (level == LEVEL_MODEL .and. order%in_step .and. .not. is_removal(deck, card)) then
          call refuse_card(deck, card, 'E-LEVEL', '*'//trim(card%name)//' stands inside the step', 'its place before *STEP')
       else if (level == LEVEL_STEP .and. .not. order%in_step) then

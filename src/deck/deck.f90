@@ -212,8 +212,7 @@ contains
       is_quoted = .false.
       if (token%last <= token%first) return
       associate (first => token%first, last => token%last)
-         is_quoted = deck%sources(token%source)%text(first:first) == '"' .and. &
-                     deck%sources(token%source)%text(last:last) == '"'
+         is_quoted = deck%sources(token%source)%text(first:first) == '"' .and. deck%sources(token%source)%text(last:last) == '"'
       end associate
    end function is_quoted
 
@@ -286,19 +285,17 @@ contains
       if (deck%sources(source)%n_children == 0) return
       before = 0                                   ! the last file that is included above the line: by halves
       behind = deck%sources(source)%n_children + 1
-      associate (children => deck%sources(source)%children)
-         do while (behind - before > 1)
-            middle = (before + behind)/2
-            if (deck%sources(children(middle))%include_line < line) then
-               before = middle
-            else
-               behind = middle
-            end if
-         end do
-         if (before == 0) return
-         associate (file => deck%sources(children(before)))
-            order = file%order + file%n_lines + line - file%include_line
-         end associate
+      do while (behind - before > 1)
+         middle = (before + behind)/2
+         if (deck%sources(deck%sources(source)%children(middle))%include_line < line) then
+            before = middle
+         else
+            behind = middle
+         end if
+      end do
+      if (before == 0) return
+      associate (file => deck%sources(deck%sources(source)%children(before)))
+         order = file%order + file%n_lines + line - file%include_line
       end associate
    end function reading_order
 

@@ -103,17 +103,15 @@ contains
       integer(ip), intent(inout) :: edit
       type(patched_text_t), intent(inout) :: patched
 
-      associate (edits => deck%edits)
-         do while (edit <= edits%n)
-            associate (one => edits%list(edit))
-               if (one%source /= source .or. one%first > last) exit
-               call append_place(patched, source, position, one%first - 1)
-               call append_place(patched, merge(UNCOUNTED, OWN_WORDS, one%is_name), one%from, one%to)
-               position = one%last + 1
-            end associate
-            edit = edit + 1
-         end do
-      end associate
+      do while (edit <= deck%edits%n)
+         associate (one => deck%edits%list(edit))
+            if (one%source /= source .or. one%first > last) exit
+            call append_place(patched, source, position, one%first - 1)
+            call append_place(patched, merge(UNCOUNTED, OWN_WORDS, one%is_name), one%from, one%to)
+            position = one%last + 1
+         end associate
+         edit = edit + 1
+      end do
       call append_place(patched, source, position, last)
       position = max(position, last + 1)
    end subroutine put_edited

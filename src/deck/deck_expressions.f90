@@ -11,8 +11,7 @@ module atrito_deck_expressions
    use atrito_strings, only: string_t, join, to_text
    implicit none (type, external)
    private
-   public :: evaluate_at, has_own_degree, report_fault, report_later, collect_known, put_before, &
-             index_of_parameter, is_known_at
+   public :: evaluate_at, has_own_degree, report_fault, report_later, collect_known, put_before, index_of_parameter, is_known_at
 
 contains
 

@@ -1,6 +1,6 @@
 !> What of a deck's text is replaced when the deck is written as it was run: places of its files, and the words that take them.
 module atrito_edits
-   use atrito_growing_text, only: growing_text_t, append_text
+   use atrito_growth, only: growing_text_t, append_text
    use atrito_kinds, only: ip
    use atrito_name_list, only: name_list_t, add_name, find_name
    implicit none (type, external)

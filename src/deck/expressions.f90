@@ -11,8 +11,7 @@ module atrito_expressions
    use atrito_kinds, only: wp, PI
    use atrito_arithmetic, only: add_safely, multiply_safely, divide_safely, raise_safely, exponential_safely, ARITHMETIC_OK, &
                                 ARITHMETIC_OVERFLOW, ARITHMETIC_ZERO_DIVISION
-   use atrito_expression_calls, only: call_t, read_call, has_argument_of
-   use atrito_expression_names, only: end_of_name, end_of_number, is_function, DIGITS, LETTERS
+   use atrito_expression_names, only: call_t, read_call, has_argument_of, end_of_name, end_of_number, is_function, DIGITS, LETTERS
    use atrito_name_list, only: name_list_t, add_name, find_name
    use atrito_numbers, only: read_real, NUMBER_OK, NUMBER_TOO_LARGE
    use atrito_strings, only: string_t, same_name, lower_case

@@ -1,20 +1,22 @@
-!> `*PARAMETER` and `--set`, and expressions of parameters and of the place.
+!> `*PARAMETER` and `--set`, expressions of parameters and of the place, and the parameters in words.
 module atrito_parameters
-   use atrito_kinds, only: ip, wp
    use atrito_deck, only: deck_t, token_t, parameter_t, part_of, reading_order, token_text
-   use atrito_diagnostics, only: report_error
-   use atrito_expression_names, only: is_name, is_reserved_name
-   use atrito_expressions, only: expression_fault_t, evaluate_expression
    use atrito_deck_expressions, only: evaluate_at, has_own_degree, report_fault, collect_known, put_before, index_of_parameter, &
                                       is_known_at
+   use atrito_diagnostics, only: report_error
+   use atrito_expression_names, only: is_name, is_reserved_name, next_name
+   use atrito_expressions, only: expression_fault_t, evaluate_expression
+   use atrito_growth, only: growing_text_t, append_text, take_text
    use atrito_items, only: LONGEST_NAME
+   use atrito_kinds, only: ip, wp
    use atrito_lexer, only: find_equals
    use atrito_name_list, only: name_list_t, add_name, find_name, has_name, names_of
+   use atrito_numbers, only: exact_text
    use atrito_status, only: status_t, set_status, is_ok, STATUS_USAGE
-   use atrito_strings, only: string_t, nearest_names, join, to_text
+   use atrito_strings, only: string_t, nearest_names, join, to_text, same_name
    implicit none (type, external)
    private
-   public :: settings_t, read_settings, define_parameter, check_settings, evaluate_function
+   public :: settings_t, read_settings, define_parameter, check_settings, evaluate_function, list_parameters
 
    !> Values that override parameters.
    type :: settings_t
@@ -155,8 +157,7 @@ contains
          if (.not. ok) call report_fault(deck, expression, fault, coordinates, keyword)
       end if
       do i = 1, size(values, kind=ip)
-         call evaluate_expression(token_text(deck, expression), names, [x(:, i), known], values(i), fault, &
-                                  has_own_degree(deck))
+         call evaluate_expression(token_text(deck, expression), names, [x(:, i), known], values(i), fault, has_own_degree(deck))
          ok = .not. allocated(fault%text)
          if (ok) cycle
          if (fault%of_value) fault%text = fault%text//' at x = '//to_text(x(1, i))//', y = '//to_text(x(2, i))
@@ -186,5 +187,57 @@ contains
          return
       end do
    end subroutine check_settings
+
+   !> `nu = 0.3, q = 10 (--set), eps varies`, in the order of the deck; not allocated where it has none.
+   subroutine list_parameters(deck, varied, text)
+      type(deck_t), intent(in) :: deck                   !< its parameters are read
+      type(string_t), intent(in) :: varied(:)            !< names of those that take several values
+      character(len=:), allocatable, intent(out) :: text !< in one line
+      type(growing_text_t) :: words
+      logical, allocatable :: varies(:)
+      integer(ip) :: i, k
+
+      if (deck%n_parameters == 0) return
+      allocate (varies(deck%n_parameters), source=.false.)
+      do i = 1, deck%n_parameters                      ! the varied ones and those that depend on them
+         do k = 1, size(varied, kind=ip)
+            varies(i) = varies(i) .or. same_name(deck%parameters(i)%name, varied(k)%s)
+         end do
+         if (.not. (varies(i) .or. deck%parameters(i)%overridden)) varies(i) = names_one(deck, i, varies)
+      end do
+      do i = 1, deck%n_parameters
+         associate (parameter => deck%parameters(i))
+            if (i > 1) call append_text(words, ', ')
+            call append_text(words, parameter%name)
+            if (varies(i)) then
+               call append_text(words, ' varies')
+            else
+               call append_text(words, ' = '//exact_text(parameter%value))
+               if (parameter%overridden) call append_text(words, ' (--set)')
+            end if
+         end associate
+      end do
+      call take_text(words, text)
+   end subroutine list_parameters
+
+   !> The expression of the i-th parameter names one before it that varies.
+   pure logical function names_one(deck, i, varies)
+      type(deck_t), intent(in) :: deck
+      integer(ip), intent(in) :: i
+      logical, intent(in) :: varies(:)
+      character(len=:), allocatable :: expression
+      integer :: first, last
+      integer(ip) :: k
+
+      names_one = .false.
+      expression = token_text(deck, deck%parameters(i)%expression)
+      last = 0
+      do while (.not. names_one)
+         call next_name(expression, last, first)
+         if (first > len(expression)) return
+         k = index_of_parameter(deck, expression(first:last))
+         if (k > 0 .and. k < i) names_one = varies(k)
+      end do
+   end function names_one
 
 end module atrito_parameters

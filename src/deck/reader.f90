@@ -119,9 +119,7 @@ contains
             ! Takes many data lines at once, where they are plain; what ends them is read line by line.
             reading%may_be_plain = .false.
             call take_plain_lines(deck, cursor%source, cursor%position, cursor%line)
-            associate (card => deck%cards(deck%n_cards))
-               card%n_lines = deck%n_lines - card%first_line + 1
-            end associate
+            deck%cards(deck%n_cards)%n_lines = deck%n_lines - deck%cards(deck%n_cards)%first_line + 1
             cycle
          end if
          call next_line(deck, cursor, line)

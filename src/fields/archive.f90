@@ -8,8 +8,7 @@
 !> What the same process reads again goes one value behind the other into a file without a name (spool_archive): nothing of it is
 !> gathered first, and a part is what lies between a place and the next.
 module atrito_archive
-   use atrito_growing_text, only: growing_text_t, append_text
-   use atrito_growth, only: grow
+   use atrito_growth, only: growing_text_t, append_text, grow
    use atrito_hdf5, only: hdf5_file_t, create_hdf5, open_hdf5, put_list, get_list, close_hdf5
    use atrito_kinds, only: ip, lp, wp
    use atrito_spool, only: spool_t, open_spool, go_to, pass_values

@@ -125,8 +125,7 @@ contains
       n = size(history%frames, kind=ip)
       do i = 1, n
          associate (frame => history%frames(i), requests => model%steps(history%frames(i)%step)%requests)
-            is_in(i) = requests%fields%nodes .or. requests%fields%reactions .or. requests%fields%stress .or. &
-                       requests%fields%contact
+            is_in(i) = requests%fields%nodes .or. requests%fields%reactions .or. requests%fields%stress .or. requests%fields%contact
             is_in(i) = is_in(i) .and. (i == n .or. is_due(requests%every%fields, frame%increment, frame%ends_step))
          end associate
       end do

@@ -16,8 +16,7 @@ module atrito_write_results
    use atrito_write_tables, only: write_tables, write_timing, list_table_files, origin_of
    use atrito_write_fields, only: write_fields, list_field_files
    use atrito_listing, only: write_listing
-   use atrito_plot_files, only: remove_plots, PLOTS_OF_RUN
-   use atrito_plot_files, only: REPORT_NAME, remove_report
+   use atrito_plot_files, only: remove_plots, PLOTS_OF_RUN, REPORT_NAME, remove_report
    implicit none (type, external)
    private
    public :: write_results, remove_results, list_files_of_run

@@ -2,13 +2,14 @@
 module atrito_mesh
    use atrito_element_table, only: SHAPES, CORNERS_OF, MOST_NODES
    use atrito_growth, only: resize
-   use atrito_kinds, only: ip, wp
    use atrito_id_map, only: id_map_t, add_id, add_sequence, find_id
+   use atrito_kinds, only: ip, wp
    use atrito_plane_state, only: STATES, IS_TAPERED
    use atrito_threads, only: is_shared
    use atrito_triangle_pieces, only: triangles_of_square
    implicit none (type, external)
    private
+   public :: turned_nodes, is_clockwise
    public :: mesh_t, reserve_mesh, add_node, add_nodes, add_element, add_block, find_node, find_element, trim_mesh
    public :: face_nodes, face_end
    public :: side_between, nodes_of_square, is_hollow, elements_of_square
@@ -51,12 +52,8 @@ contains
       integer(ip), intent(in) :: new_nodes, new_elements !< that will be added, >= 0
 
       if (.not. allocated(mesh%node_id)) allocate (mesh%node_id(0), mesh%x(2, 0))
-      if (.not. allocated(mesh%element_id)) then
-         allocate (mesh%element_id(0), mesh%shape(0), mesh%state(0), mesh%nodes(MOST_NODES, 0))
-      end if
-      if (mesh%n_nodes + new_nodes > size(mesh%node_id)) then
-         call resize_nodes(mesh, mesh%n_nodes + max(new_nodes, mesh%n_nodes/4))
-      end if
+      if (.not. allocated(mesh%element_id)) allocate (mesh%element_id(0), mesh%shape(0), mesh%state(0), mesh%nodes(MOST_NODES, 0))
+      if (mesh%n_nodes + new_nodes > size(mesh%node_id)) call resize_nodes(mesh, mesh%n_nodes + max(new_nodes, mesh%n_nodes/4))
       if (mesh%n_elements + new_elements > size(mesh%element_id)) then
          call resize_elements(mesh, mesh%n_elements + max(new_elements, mesh%n_elements/4))
       end if
@@ -309,5 +306,27 @@ contains
       e = mesh%x(:, mesh%nodes(side_count(mesh, element), element)) - mesh%x(:, mesh%nodes(2, element))
       area = 0.5_wp*(d(1)*e(2) - d(2)*e(1))
    end function signed_area
+
+   !> The nodes of an element the other way round, from the same first corner.
+   pure function turned_nodes(nodes) result(turned)
+      integer(ip), intent(in) :: nodes(:)              !< as many as the shape has: corners, mid-sides, centre
+      integer(ip) :: turned(size(nodes))
+
+      associate (n => CORNERS_OF(size(nodes)))
+         turned = nodes
+         turned(2:n) = nodes(n:2:-1)
+         if (size(nodes) > n) turned(n + 1:2*n) = nodes(2*n:n + 1:-1)
+      end associate
+   end function turned_nodes
+
+   !> The polygon of the corners has a negative area.
+   pure logical function is_clockwise(x)
+      real(wp), intent(in) :: x(:, :)                  !< (2, corners) [L]
+      real(wp) :: d(2), e(2)
+
+      d = x(:, 3) - x(:, 1)
+      e = x(:, size(x, 2)) - x(:, 2)                   ! of a triangle the third corner is the last: the same area
+      is_clockwise = d(1)*e(2) - d(2)*e(1) < 0.0_wp
+   end function is_clockwise
 
 end module atrito_mesh

@@ -93,8 +93,7 @@ contains
             if (refinement%face_edge(face, e) > 0) cycle
             n = n + 1
             refinement%face_edge(face, e) = n
-            refinement%edge_node(:, n) = [mesh%nodes(face, e), mesh%nodes(face_end(mesh, e, face), e), &
-                                          middle_node(mesh, e, face)]
+            refinement%edge_node(:, n) = [mesh%nodes(face, e), mesh%nodes(face_end(mesh, e, face), e), middle_node(mesh, e, face)]
             refinement%edge_element(1, n) = e
             call find_across(mesh, around, e, face, other, other_face)
             if (other == 0) cycle
@@ -179,11 +178,7 @@ contains
       do e = 1, mesh%n_elements
          refinement%inner_first(e) = n
          intervals = element_intervals(mesh, refinement, e)
-         if (refinement%is_triangle(e)) then
-            n = n + ((intervals - 1)*(intervals - 2))/2
-         else
-            n = n + (intervals - 1)**2
-         end if
+         n = n + merge(((intervals - 1)*(intervals - 2))/2, (intervals - 1)**2, refinement%is_triangle(e))
          if (SHAPES(fine_shape(mesh, refinement%shape, e))%hollow) n = n - refinement%pieces**2
          if (has_centre(mesh, e) .and. .not. drops_centre(mesh, refinement, e)) n = n - 1
       end do
@@ -224,11 +219,9 @@ contains
       integer(ip) :: i, j, k, n
 
       if (allocated(refinement%inner_place)) then
-         associate (first => refinement%inner_first(1))
-            do k = refinement%inner_first(element), refinement%inner_first(element + 1) - 1
-               x(:, k) = point_in(mesh, element, refinement%inner_place(:, k - first + 1))
-            end do
-         end associate
+         do k = refinement%inner_first(element), refinement%inner_first(element + 1) - 1
+            x(:, k) = point_in(mesh, element, refinement%inner_place(:, k - refinement%inner_first(1) + 1))
+         end do
       else
          call fill_grid(mesh, refinement, element, grid)
          n = ubound(grid, 1, kind=ip)
@@ -314,11 +307,8 @@ contains
       real(wp), intent(in) :: t
       real(wp) :: x(2)
 
-      if (middle > 0) then
-         x = parabola(mesh%x(:, first), mesh%x(:, last), mesh%x(:, middle), t)
-      else
-         x = mesh%x(:, first) + t*(mesh%x(:, last) - mesh%x(:, first))
-      end if
+      x = mesh%x(:, first) + t*(mesh%x(:, last) - mesh%x(:, first))
+      if (middle > 0) x = parabola(mesh%x(:, first), mesh%x(:, last), mesh%x(:, middle), t)
    end function along
 
    !> The point t = 0..1 of the parabola that is at a for t = 0, at `middle` for t = 1/2 and at b for t = 1: the straight line, and
@@ -345,33 +335,31 @@ contains
          if (ubound(grid, 1) /= n) deallocate (grid)
       end if
       if (.not. allocated(grid)) allocate (grid(0:n, 0:n))
-      associate (is_triangle => refinement%is_triangle(element))
-         call put_edge(mesh, refinement, element, 1_ip, grid(:, 0))
-         if (is_triangle) then                         ! its second side is the diagonal: half of the grid is used
-            allocate (line(0:n))
-            call put_edge(mesh, refinement, element, 2_ip, line)
-            do i = 0, n
-               grid(n - i, i) = line(i)
-            end do
-         else
-            call put_edge(mesh, refinement, element, 2_ip, grid(n, :))
-            call put_edge(mesh, refinement, element, 3_ip, grid(n:0:-1, n))
-         end if
-         call put_edge(mesh, refinement, element, side_count(mesh, element), grid(0, n:0:-1))
-         k = refinement%inner_first(element)
-         do j = 1, n - 1
-            do i = 1, merge(n - j, n, is_triangle) - 1
-               if (is_hollow(fine_shape(mesh, refinement%shape, element), i, j)) then
-                  grid(i, j) = 0
-               else if (has_centre(mesh, element) .and. 2*i == n .and. 2*j == n) then
-                  grid(i, j) = mesh%nodes(mesh%shape(element), element)
-               else
-                  grid(i, j) = k
-                  k = k + 1
-               end if
-            end do
+      call put_edge(mesh, refinement, element, 1_ip, grid(:, 0))
+      if (refinement%is_triangle(element)) then                         ! its second side is the diagonal: half of the grid is used
+         allocate (line(0:n))
+         call put_edge(mesh, refinement, element, 2_ip, line)
+         do i = 0, n
+            grid(n - i, i) = line(i)
          end do
-      end associate
+      else
+         call put_edge(mesh, refinement, element, 2_ip, grid(n, :))
+         call put_edge(mesh, refinement, element, 3_ip, grid(n:0:-1, n))
+      end if
+      call put_edge(mesh, refinement, element, side_count(mesh, element), grid(0, n:0:-1))
+      k = refinement%inner_first(element)
+      do j = 1, n - 1
+         do i = 1, merge(n - j, n, refinement%is_triangle(element)) - 1
+            if (is_hollow(fine_shape(mesh, refinement%shape, element), i, j)) then
+               grid(i, j) = 0
+            else if (has_centre(mesh, element) .and. 2*i == n .and. 2*j == n) then
+               grid(i, j) = mesh%nodes(mesh%shape(element), element)
+            else
+               grid(i, j) = k
+               k = k + 1
+            end if
+         end do
+      end do
    end subroutine fill_grid
 
    !> The nodes of an edge in the direction in which an element travels it.

@@ -6,36 +6,35 @@ module atrito_build_model
    use atrito_build_amplitudes, only: build_amplitudes
    use atrito_build_block, only: read_block_card, place_block_elements
    use atrito_build_contact, only: build_contact
-   use atrito_build_elements, only: read_element_card, read_elgen_card
+   use atrito_build_context, only: build_context_t, prepare_context, has_errors
    use atrito_build_cuts, only: place_cuts
+   use atrito_build_elements, only: read_element_card, read_elgen_card
    use atrito_build_equations, only: build_equations
-   use atrito_build_loads, only: build_loads
-   use atrito_build_paths, only: place_paths
-   use atrito_build_pretension, only: build_pretension, add_pretension_rows
    use atrito_build_gmsh, only: read_mesh_nodes, read_mesh_elements
-   use atrito_build_lines, only: is_line_card, read_lines, read_curves, turn_elements
    use atrito_build_instances, only: build_instances
+   use atrito_build_lines, only: is_line_card, read_lines, read_curves, turn_elements
+   use atrito_build_loads, only: build_loads
    use atrito_build_materials, only: build_materials
    use atrito_build_nodes, only: read_node_card, read_fill_card
-   use atrito_build_rigid_bodies, only: build_rigid_bodies, make_solver_mesh
+   use atrito_build_paths, only: place_paths
+   use atrito_build_pretension, only: build_pretension, add_pretension_rows
    use atrito_build_requests, only: build_requests
+   use atrito_build_rigid_bodies, only: build_rigid_bodies, make_solver_mesh
+   use atrito_build_sets, only: try_set_card, read_set_card, read_copy_card
    use atrito_build_springs, only: build_springs, is_spring_card
    use atrito_build_steps, only: build_steps, open_step
-   use atrito_build_sets, only: try_set_card, read_set_card, read_copy_card
    use atrito_build_supports, only: build_supports
-   use atrito_build_trees, only: build_trees, has_cuts
-   use atrito_build_ties, only: read_ties, check_ties, build_ties
    use atrito_build_surfaces, only: build_surfaces
+   use atrito_build_ties, only: read_ties, check_ties, build_ties
+   use atrito_build_trees, only: build_trees, has_cuts
    use atrito_check_contact, only: check_surfaces_of_pairs, check_points_of_pairs, note_unused_interactions
    use atrito_check_contact_sense, only: warn_of_overlap, warn_of_loaded_contact, warn_of_pairs_twice
    use atrito_check_mesh, only: check_mesh
-   use atrito_clearance, only: clearance_t, interference_t, read_clearances, read_interferences, set_clearances, &
-                               set_interferences
+   use atrito_clearance, only: clearance_t, interference_t, read_clearances, read_interferences, set_clearances, set_interferences
    use atrito_contact_roles, only: choose_roles
    use atrito_contact_rules, only: contact_rules_t, read_contact_rules
    use atrito_deck, only: deck_t, count_lines, token_t, token_text, line_item, keyword_name
    use atrito_diagnostics, only: report_error
-   use atrito_build_context, only: build_context_t, prepare_context, has_errors
    use atrito_element_trees, only: element_trees_t, list_leaves
    use atrito_faces, only: chain_report_t, list_node_elements
    use atrito_found_contact, only: find_contact
@@ -44,8 +43,7 @@ module atrito_build_model
    use atrito_memory, only: available_memory
    use atrito_mesh, only: trim_mesh
    use atrito_messages, only: message_mark_t, mark_messages, forget_messages
-   use atrito_model, only: model_t
-   use atrito_observed_lines, only: list_observed
+   use atrito_model, only: model_t, observed_line_t
    use atrito_node_fields, only: read_temperatures, read_node_thickness, check_temperatures
    use atrito_pairing, only: order_slaves, pair_all
    use atrito_plane_state, only: FULL_STATE
@@ -59,7 +57,7 @@ module atrito_build_model
    use atrito_units, only: units_t, N_UNITS
    implicit none (type, external)
    private
-   public :: build_model
+   public :: build_model, list_observed
 
 contains
 
@@ -361,5 +359,27 @@ contains
       call read_sets(context, 'ELSET')
       call read_sets(context, 'NSET')
    end subroutine build_elements
+
+   !> The lines in the order of the deck.
+   pure subroutine list_observed(deck, lines)
+      type(deck_t), intent(in) :: deck                            !< as read
+      type(observed_line_t), allocatable, intent(out) :: lines(:) !< not evaluated yet
+      type(token_t) :: token
+      integer(ip) :: i, k, n
+
+      allocate (lines(count_lines(deck, 'OBSERVE')))
+      n = 0
+      do i = 1, deck%n_cards
+         if (keyword_name(deck%cards(i)) /= 'OBSERVE') cycle
+         do k = deck%cards(i)%first_line, deck%cards(i)%first_line + deck%cards(i)%n_lines - 1
+            token = line_item(deck, deck%lines(k), 1_ip)
+            n = n + 1
+            lines(n)%text = token_text(deck, token)
+            lines(n)%file = deck%sources(token%source)%name
+            lines(n)%line = token%line
+            lines(n)%column = token%column
+         end do
+      end do
+   end subroutine list_observed
 
 end module atrito_build_model

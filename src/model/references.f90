@@ -268,9 +268,7 @@ contains
 
       ok = face <= 3 .or. is_refined(context%refinement)
       if (ok) return
-      associate (mesh => context%model%mesh)
-         without = pack(mesh%element_id(elements), CORNERS_OF(mesh%shape(elements)) < face)
-      end associate
+      without = pack(context%model%mesh%element_id(elements), CORNERS_OF(context%model%mesh%shape(elements)) < face)
       ok = size(without) == 0
       if (ok) return
       call report_error(context%deck, token, 'E-FACE', 'element '//ids_text(without)//' has no face '//to_text(face), &

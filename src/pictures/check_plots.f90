@@ -12,8 +12,7 @@ module atrito_check_plots
    use atrito_number_text, only: trimmed_real
    use atrito_page, only: plural
    use atrito_plot_files, only: plot_folder, remove_plots, PLOTS_OF_CHECK, SCENE_PLOT, SET_PLOT, GAP_PLOT
-   use atrito_plot_scripts, only: plots_t, begin_plots, end_plots, put, begin_data, begin_script, put_terminal, &
-                                  put_frame, put_panel
+   use atrito_plot_scripts, only: plots_t, begin_plots, end_plots, put, begin_data, begin_script, put_terminal, put_frame, put_panel
    use atrito_plot_text, only: range_t, range_text, span, quoted, cleaned, scene_title, COLOUR, LF, cover, padded, range_of
    use atrito_plot_view, only: plot_view_t, shown_window
    use atrito_sets, only: set_count, members_of, member_count

@@ -3,7 +3,7 @@ module atrito_overlay_data
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    use atrito_kinds, only: ip, wp
    use atrito_status, only: status_t, is_ok
-   use atrito_read_table, only: table_file_t, read_table, table_path, find_column, item_text
+   use atrito_read_table, only: comment_of, table_file_t, read_table, table_path, find_column, item_text
    use atrito_plot_text, only: range_t, cover
    use atrito_strings, only: string_t, to_text
    use atrito_summary, only: quantity_names
@@ -112,20 +112,6 @@ contains
          end associate
       end do
    end subroutine read_runs
-
-   !> The first line `# <what>: ...` of a table, without its mark; empty where there is none.
-   pure function comment_of(text, what) result(comment)
-      character(len=*), intent(in) :: text, what
-      character(len=:), allocatable :: comment
-      integer :: first, length
-
-      comment = ''
-      first = index(text, new_line('a')//'# '//what//': ')
-      if (first == 0) return
-      first = first + len(what) + 5
-      length = index(text(first:), new_line('a')) - 1
-      if (length > 0) comment = trim(text(first:first + length - 1))
-   end function comment_of
 
    !> The last increment of a run, and the ranges of the pairs widened by what they have in it.
    subroutine cover_run(table, run, pairs)

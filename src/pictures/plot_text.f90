@@ -19,8 +19,7 @@ module atrito_plot_text
    character(len=1), parameter :: LF = achar(10)    !< between lines that are put together
    !> The palette of Okabe and Ito, made for colour-blind readers, without its yellow, which is too pale for lines.
    integer(ip), parameter :: N_COLOURS = 7
-   character(len=7), parameter :: COLOUR(N_COLOURS) = &
-                                  ['#0072B2', '#D55E00', '#009E73', '#CC79A7', '#56B4E9', '#E69F00', '#000000']
+   character(len=7), parameter :: COLOUR(N_COLOURS) = ['#0072B2', '#D55E00', '#009E73', '#CC79A7', '#56B4E9', '#E69F00', '#000000']
    integer(ip), parameter :: MOST_STYLES = 3*N_COLOURS  !< colours that can be told apart
    !> Kinds of line that can be told apart in grey, as gnuplot's dt has them.
    character(len=13), parameter :: DASH(10) = [character(len=13) :: '1', '(9,3)', '(3,3)', '(9,3,2,3)', '(18,4)', '(9,3,2,3,2,3)', &

@@ -14,11 +14,10 @@ module atrito_scene_builder
    use atrito_bodies, only: bodies_t, find_bodies, number_equations, find_rigid_modes
    use atrito_body_names, only: name_bodies
    use atrito_incidence, only: list_holders
-   use atrito_model, only: model_t, step_t
+   use atrito_model, only: model_t, step_t, elasticity_of
    use atrito_pairing, only: pair_all
    use atrito_points, only: contact_points_t
    use atrito_rigid_bodies, only: append_rigid_bodies, attach_points, has_moving_surfaces, hold_carriers
-   use atrito_section_elasticity, only: elasticity_of
    use atrito_solver_choice, only: needs_profile
    implicit none (type, external)
    private

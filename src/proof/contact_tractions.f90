@@ -176,14 +176,10 @@ contains
       segment%pair = i_pair
       segment%on_slave = places
       associate (pair => model%pairs(i_pair), mesh => model%mesh)
-         associate (faces => model%surfaces(pair%slave)%faces)
-            segment%slave = [faces%element(f), faces%face(f)]
-         end associate
+         segment%slave = [model%surfaces(pair%slave)%faces%element(f), model%surfaces(pair%slave)%faces%face(f)]
          call take_nodes(face_nodes(mesh, segment%slave(1), segment%slave(2)), segment%n, segment%node)
          if (model%surfaces(pair%master)%kind /= SURFACE_SEGMENTS) then
-            associate (faces => model%surfaces(pair%master)%faces)
-               segment%master = [faces%element(piece), faces%face(piece)]
-            end associate
+            segment%master = [model%surfaces(pair%master)%faces%element(piece), model%surfaces(pair%master)%faces%face(piece)]
             call take_nodes(face_nodes(mesh, segment%master(1), segment%master(2)), segment%n_master, segment%master_node)
          end if
          associate (first => mesh%x(:, segment%node(1)), last => mesh%x(:, segment%node(2)))

@@ -245,14 +245,12 @@ contains
       character(len=:), allocatable, intent(inout) :: why_not
       real(wp) :: farthest
 
-      associate (fem => problem%fem)
-         if (any(fem%sections%thickness <= 0.0_wp)) why_not = 'no thickness'
-         if (fem%bodies%n_rigid > 0) why_not = 'rigid bodies'
-         farthest = maxval(abs(u))
-         if (farthest > LARGEST .or. (farthest > 0.0_wp .and. farthest < 1/LARGEST)) then
-            why_not = 'displacements above 1e100 or below 1e-100: other units'
-         end if
-      end associate
+      if (any(problem%fem%sections%thickness <= 0.0_wp)) why_not = 'no thickness'
+      if (problem%fem%bodies%n_rigid > 0) why_not = 'rigid bodies'
+      farthest = maxval(abs(u))
+      if (farthest > LARGEST .or. (farthest > 0.0_wp .and. farthest < 1/LARGEST)) then
+         why_not = 'displacements above 1e100 or below 1e-100: other units'
+      end if
    end subroutine check_hypotheses
 
    !> Puts the tractions of contact among the known ones: polynomials with the same moments on sides that are cut.

@@ -34,8 +34,7 @@ contains
       type(mesh_sides_t), intent(in) :: sides
       type(side_cuts_t), intent(in) :: cuts
 
-      work = sum_over(fem, classes, BOUND_OF_ALL, BOUND_OF_OWN) &
-             + BOUND_OF_CELL(most_degree(fem))*count_cells(fem, sides, cuts)
+      work = sum_over(fem, classes, BOUND_OF_ALL, BOUND_OF_OWN) + BOUND_OF_CELL(most_degree(fem))*count_cells(fem, sides, cuts)
    end function work_of_bound
 
    !> Of the run without a bound, and rather too little: increments before this one, and what is printed, are left out.

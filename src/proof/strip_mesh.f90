@@ -240,9 +240,7 @@ contains
       type(strip_t), intent(inout) :: strip
       integer(ip), intent(in) :: corner(3), e
 
-      if (strip%n_triangles == size(strip%corner, 2)) then
-         call resize(strip%corner, strip%n_triangles, 2*strip%n_triangles + 64)
-      end if
+      if (strip%n_triangles == size(strip%corner, 2)) call resize(strip%corner, strip%n_triangles, 2*strip%n_triangles + 64)
       call make_room(strip%element, strip%n_triangles, strip%n_triangles + 1)
       strip%n_triangles = strip%n_triangles + 1
       strip%corner(:, strip%n_triangles) = corner

@@ -183,14 +183,10 @@ contains
    pure subroutine add_pre(page, text, attributes)
       type(page_t), intent(inout) :: page                    !< gets lines of HTML
       character(len=*), intent(in) :: text                   !< plain text, lines with LF between them
-      character(len=*), intent(in), optional :: attributes   !< with a blank before them
+      character(len=*), intent(in) :: attributes             !< with a blank before them, or none
       integer :: first, last
 
-      if (present(attributes)) then
-         call add_line(page, '<pre'//attributes//'>')
-      else
-         call add_line(page, '<pre>')
-      end if
+      call add_line(page, '<pre'//attributes//'>')
       first = 1
       do while (first <= len(text))
          last = index(text(first:), achar(10))

@@ -7,7 +7,7 @@ module atrito_html_table
    use atrito_page, only: number, page_t, add_line
    use atrito_read_table, only: table_file_t, parse_table, item_text, ITEM_REAL, ITEM_WORD
    use atrito_status, only: status_t, is_ok
-   use atrito_strings, only: string_t, string_list_t, add_string, append_string, take_strings, to_text
+   use atrito_strings, only: string_t, string_list_t, add_string, split_words, take_strings, to_text
    use atrito_table, only: MARK_COLUMNS, MARK_DIMENSIONS, MARK_NOT_CONVERGED
    implicit none (type, external)
    private
@@ -107,7 +107,7 @@ contains
                comma = index(line, ', ')
                if (comma > 0) top%title = line(comma + 2:)
             else if (index(line, MARK_DIMENSIONS) == 1) then
-               call append_words(line(len(MARK_DIMENSIONS) + 1:), top%dimensions)
+               call split_words(line(len(MARK_DIMENSIONS) + 1:), ' ', top%dimensions)
             else if (index(line, MARK_COLUMNS) == 1 .or. index(line, MARK_NOT_CONVERGED) == 1) then
                continue
             else if (len(top%title) > 0) then
@@ -122,33 +122,14 @@ contains
       call take_strings(remarks, top%remarks)
    end subroutine read_comments
 
-   !> The words of a line.
-   subroutine append_words(line, words)
-      character(len=*), intent(in) :: line
-      type(string_t), allocatable, intent(inout) :: words(:)
-      integer :: first, last
-
-      last = 0
-      do
-         first = verify(line(last + 1:), ' ')
-         if (first == 0) return
-         first = last + first
-         last = scan(line(first:)//' ', ' ') + first - 2
-         call append_string(words, line(first:last))
-      end do
-   end subroutine append_words
-
    !> An item for readers: reals with six digits.
    function shown_item(top, column, row) result(text)
       type(table_top_t), intent(in) :: top          !< of read_top
       integer(ip), intent(in) :: column, row        !< from 1, among the rows that are kept
       character(len=:), allocatable :: text
 
-      if (top%table%kind(column, row) == ITEM_REAL) then
-         text = number(top%table%value(column, row), SHOWN_DIGITS)
-      else
-         text = item_text(top%table, column, row)
-      end if
+      text = item_text(top%table, column, row)
+      if (top%table%kind(column, row) == ITEM_REAL) text = number(top%table%value(column, row), SHOWN_DIGITS)
    end function shown_item
 
    !> Dimension of a quantity of a table with a row a quantity, from remarks as `[F L]: strain_energy external_work`; '' where the

@@ -193,7 +193,7 @@ contains
          message = get_message(i)
          if (message%severity == SEVERITY_NOTE) n_notes = n_notes + 1
          if (message%severity == SEVERITY_NOTE .and. n_notes > MOST_NOTES) cycle
-         call add_pre(section%page, shortened(join(format_message(message), achar(10)), LONGEST_VALUE))
+         call add_pre(section%page, shortened(join(format_message(message), achar(10)), LONGEST_VALUE), '')
       end do
       if (n_notes > MOST_NOTES) call add_note(section%page, 'And '//to_text(n_notes - MOST_NOTES)//' more notes.')
       if (allocated(report%other_messages)) call add_element(section%page, 'p', report%other_messages)
@@ -242,7 +242,7 @@ contains
          call read_file(report%folder//'/'//report%files(i)%s, text, status)
          if (.not. is_ok(status)) cycle
          call add_line(section%page, '<details><summary>'//html_text(report%files(i)%s)//'</summary>')
-         call add_pre(section%page, shortened(text, MOST_LISTED))
+         call add_pre(section%page, shortened(text, MOST_LISTED), '')
          call add_line(section%page, '</details>')
       end do
       call add_section(sections, section)

@@ -122,25 +122,23 @@ contains
       self%n_tables = 0
       call add_states(results, solution, self%states)
       do i = 1, size(self%views)
-         associate (view => self%views(i)%s)
-            select case (view)
-            case ('matrix')
-               call view_matrix(data%fem, self%page, table)
-            case ('line')
-               if (.not. allocated(data%flexibility)) cycle
-               call view_line(data%flexibility, data%line, solution, self%page, table, motions)
-               if (motions%n_rows > 0) call keep_table(motions, self)
-            case ('states')
-               call view_states(self%states, self%page, table)
-            case ('picard')
-               call view_picard(data%line, data%points, results, solution, self%page, table)
-            case ('law')
-               if (.not. allocated(results%contact)) cycle
-               call view_law(data%line, results, self%page, table)
-            case default
-               call view_element(data%fem, find_element(data%fem%mesh, element_of(view)), self%page, table)
-            end select
-         end associate
+         select case (self%views(i)%s)
+         case ('matrix')
+            call view_matrix(data%fem, self%page, table)
+         case ('line')
+            if (.not. allocated(data%flexibility)) cycle
+            call view_line(data%flexibility, data%line, solution, self%page, table, motions)
+            if (motions%n_rows > 0) call keep_table(motions, self)
+         case ('states')
+            call view_states(self%states, self%page, table)
+         case ('picard')
+            call view_picard(data%line, data%points, results, solution, self%page, table)
+         case ('law')
+            if (.not. allocated(results%contact)) cycle
+            call view_law(data%line, results, self%page, table)
+         case default
+            call view_element(data%fem, find_element(data%fem%mesh, element_of(self%views(i)%s)), self%page, table)
+         end select
          call keep_table(table, self)
       end do
    end subroutine view_all

@@ -12,7 +12,7 @@ module atrito_show_element
    use atrito_page, only: page_t, add_heading, add_line
    use atrito_plane_state, only: elasticity_matrix, COMPONENTS, IS_TAPERED, STATES
    use atrito_shape_functions, only: rule_point, shape_gradients, shape_values
-   use atrito_show_text, only: add_matrix
+   use atrito_grid, only: add_matrix
    use atrito_strings, only: append_string, string_t, to_text
    use atrito_table, only: table_t, begin_table, add_integers, add_reals, add_words
    implicit none (type, external)

@@ -8,7 +8,7 @@ module atrito_show_line
    use atrito_dense, only: eigen_symmetric
    use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_page, only: page_t, add_heading, add_line, plural
-   use atrito_show_text, only: add_matrix
+   use atrito_grid, only: add_matrix
    use atrito_strings, only: append_string, to_text, trimmed_strings
    use atrito_table, only: table_t, add_integers, add_reals, add_words, begin_table
    implicit none (type, external)

@@ -116,8 +116,7 @@ contains
       do i = 1, before%n, high
          call add_line(page, line_of(before)//'     '//line_of(after))
       end do
-      call add_line(page, '# in the profile, k of contact alone, . above it; a character: '//to_text(wide)//' x '// &
-                    to_text(high))
+      call add_line(page, '# in the profile, k of contact alone, . above it; a character: '//to_text(wide)//' x '//to_text(high))
 
    contains
 

@@ -2,19 +2,17 @@
 !>
 !> A number differs if |a-b| > rtol S + atol, S the largest |value| of its column over all increments; of its quantity and pair in
 !> summary.tab; of its contact pair and step for pressure, shear and slip; of its pair in history.tab; of a family of columns in
-!> bodies.tab, joints.tab, sections.tab and history.tab. A column may have rules of its own
-!> (atrito_compare_rules). Integers and words must be equal; nan equals nan. timing, iterations and adapt are left
-!> out; the equilibrium residual must be small in both.
+!> bodies.tab, joints.tab, sections.tab and history.tab. A column may have rules of its own (atrito_compare_rules). Integers and
+!> words must be equal; nan equals nan. timing, iterations and adapt are left out; the equilibrium residual must be small in both.
 module atrito_compare
-   use atrito_kinds, only: ip, wp
-   use atrito_strings, only: string_t, append_string, to_text, join
-   use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE, STATUS_OK, STATUS_USAGE
-   use atrito_compare_heads, only: tell_heads
-   use atrito_compare_rules, only: rule_t, rules_t, rule_of, takes_table, ANY_NAME, COMPARED_TABLES
    use atrito_column_scales, only: kind_of, columns_of_scale, row_scales, summary_scales, moment_scale, is_of_pair, is_number
+   use atrito_compare_rules, only: rule_t, rules_t, rule_of, takes_table, ANY_NAME, COMPARED_TABLES
    use atrito_files, only: file_exists, is_folder
+   use atrito_kinds, only: ip, wp
    use atrito_page, only: page_t, begin_page, add_line, plural
    use atrito_read_table, only: table_file_t, read_table, table_path, find_column, item_text, ITEM_WORD, ITEM_INTEGER, ITEM_NAN
+   use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE, STATUS_OK, STATUS_USAGE
+   use atrito_strings, only: string_t, append_string, to_text, join
    implicit none (type, external)
    private
    public :: comparison_t, begin_comparison, compare_paths, compare_tables, DEFAULT_RTOL, DEFAULT_ATOL
@@ -33,6 +31,8 @@ module atrito_compare
       type(string_t), allocatable :: differences(:) !< all that are kept, in words
       type(page_t) :: page                          !< what is to be printed
    end type comparison_t
+
+   integer, parameter :: DECK = 1, PARAMETERS = 2, OPTIONS = 3, DIGEST = 4   !< places in HEAD_NAMES
 
 contains
 
@@ -437,5 +437,63 @@ contains
          call set_status(status, STATUS_USAGE, 'the tables differ')
       end if
    end subroutine conclude
+
+   !> Adds a line for each thing that two heads say otherwise: other parameters, another deck, other options. It counts as no
+   !> difference, but a reader wants to know it first. What the page has already is not told again.
+   subroutine tell_heads(a, b, page)
+      type(table_file_t), intent(in) :: a, b     !< of one name
+      type(page_t), intent(inout) :: page        !< gets lines that it has not
+
+      if (.not. (a%has_head .and. b%has_head)) return
+      associate (one => a%head, two => b%head, other_deck => a%head(DECK)%s /= b%head(DECK)%s, &
+                 other_values => a%head(PARAMETERS)%s /= b%head(PARAMETERS)%s)
+         if (other_deck) call tell('another deck: '//both(one(DECK)%s, two(DECK)%s))
+         if (other_values) call tell('other parameters: '//both(others(one(PARAMETERS)%s, two(PARAMETERS)%s), &
+                                                                others(two(PARAMETERS)%s, one(PARAMETERS)%s)))
+         if (one(OPTIONS)%s /= two(OPTIONS)%s) call tell('other options: '//both(one(OPTIONS)%s, two(OPTIONS)%s))
+         if (one(DIGEST)%s /= two(DIGEST)%s .and. min(len(one(DIGEST)%s), len(two(DIGEST)%s)) > 0 .and. &
+             .not. (other_deck .or. other_values)) call tell('a deck of the same name with other lines (digest)')
+      end associate
+
+   contains
+
+      subroutine tell(text)
+         character(len=*), intent(in) :: text
+         integer :: i
+
+         do i = 1, page%n
+            if (page%lines(i)%s == text) return
+         end do
+         call add_line(page, text)
+      end subroutine tell
+
+   end subroutine tell_heads
+
+   !> The items `name = value` of one list that do not stand in the other.
+   pure function others(list, other) result(text)
+      character(len=*), intent(in) :: list, other
+      character(len=:), allocatable :: text
+      integer :: first, last
+
+      text = ''
+      first = 1
+      do while (first <= len(list))
+         last = first + index(list(first:)//', ', ', ') - 2
+         if (index(', '//other//', ', ', '//list(first:last)//', ') == 0) then
+            if (len(text) > 0) text = text//', '
+            text = text//list(first:last)
+         end if
+         first = last + 3
+      end do
+   end function others
+
+   pure function both(one, two) result(text)
+      character(len=*), intent(in) :: one, two
+      character(len=:), allocatable :: text
+
+      text = one//' / '//two
+      if (len(one) == 0) text = 'none / '//two
+      if (len(two) == 0) text = one//' / none'
+   end function both
 
 end module atrito_compare

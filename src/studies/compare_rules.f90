@@ -7,7 +7,7 @@ module atrito_compare_rules
    use atrito_kinds, only: ip, wp
    use atrito_numbers, only: read_real, NUMBER_OK
    use atrito_status, only: status_t, is_ok, set_status, STATUS_FILE, STATUS_USAGE
-   use atrito_strings, only: string_t, append_string, join, nearest_names, to_text, trimmed_strings
+   use atrito_strings, only: string_t, append_string, join, nearest_names, split_words, to_text, trimmed_strings
    use atrito_write_tables, only: TABLE_NAMES, SHOWN_TABLES
    implicit none (type, external)
    private
@@ -29,6 +29,7 @@ module atrito_compare_rules
 
    character(len=12), parameter :: COMPARED_TABLES(*) = [TABLE_NAMES, SHOWN_TABLES]
    character(len=*), parameter :: ANY_NAME = '*'
+   character(len=*), parameter :: BETWEEN = ' ,'//achar(9)//achar(13)   !< words
 
 contains
 
@@ -51,7 +52,7 @@ contains
       do while (first <= len(text) .and. is_ok(status))
          line = line + 1
          last = first + index(text(first:)//achar(10), achar(10)) - 2
-         call split(text(first:last), words)
+         call split_words(text(first:first + index(text(first:last)//'#', '#') - 2), BETWEEN, words)   ! # begins a comment
          first = last + 2
          if (size(words) == 0) cycle
          if (size(words) == 3) call append_string(words, '0')
@@ -82,7 +83,7 @@ contains
       integer :: i, dot
 
       rule%is_left_out = .true.
-      call split(text, names)
+      call split_words(text, BETWEEN, names)
       do i = 1, size(names)
          dot = index(names(i)%s//'.', '.')
          rule%table = names(i)%s(:dot - 1)
@@ -99,7 +100,7 @@ contains
       type(status_t), intent(out) :: status          !< STATUS_OK or STATUS_USAGE
       integer :: i
 
-      call split(text, rules%tables)
+      call split_words(text, BETWEEN, rules%tables)
       do i = 1, size(rules%tables)
          if (is_ok(status)) call check_table(rules%tables(i)%s, '--tables: ', status)
       end do
@@ -113,25 +114,6 @@ contains
       call set_status(status, STATUS_USAGE, place//'there is no table '//name//'; nearest: '// &
                       join(nearest_names(name, trimmed_strings(COMPARED_TABLES), 2), ', '))
    end subroutine check_table
-
-   !> Words between blanks, tabs and commas, up to a #.
-   pure subroutine split(line, words)
-      character(len=*), intent(in) :: line
-      type(string_t), allocatable, intent(out) :: words(:)
-      character(len=*), parameter :: BETWEEN = ' ,'//achar(9)//achar(13)
-      integer :: first, last, ends
-
-      allocate (words(0))
-      ends = index(line//'#', '#') - 1
-      last = 0
-      do
-         first = verify(line(last + 1:ends), BETWEEN)
-         if (first == 0) exit
-         first = last + first
-         last = first + scan(line(first:ends)//' ', BETWEEN) - 2
-         call append_string(words, line(first:last))
-      end do
-   end subroutine split
 
    subroutine add_rule(rule, place, rules, status)
       type(rule_t), intent(in) :: rule

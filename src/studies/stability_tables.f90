@@ -7,34 +7,19 @@ module atrito_stability_tables
    use atrito_status, only: status_t, STATUS_OK, STATUS_NOT_CONVERGED
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_summary, only: large_text
-   use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_integers, add_words, one_word
-   use atrito_table_text, only: write_table_set
+   use atrito_table, only: table_t, begin_table, add_reals, add_integers, add_words, one_word
    implicit none (type, external)
    private
-   public :: write_stability, compose_stability, limit_text, values_text, list_remarks, large_where_it_stands
+   public :: build_values, build_mechanism, compose_stability, limit_text, values_text, list_remarks, large_where_it_stands
 
    integer, parameter :: DIGITS = 10
 
 contains
 
-   !> Writes limit.tab and mechanism.tab. status: STATUS_FILE.
-   subroutine write_stability(folder, origin, limit, digits_of_tables, status, is_csv)
-      character(len=*), intent(in) :: folder           !< of the tables
-      type(origin_t), intent(in) :: origin             !< for the heads of the tables
-      type(stability_t), intent(in) :: limit           !< as found, with its collapse
-      integer, intent(in) :: digits_of_tables          !< significant ones of reals
-      type(status_t), intent(out) :: status            !< STATUS_OK or STATUS_FILE
-      logical, intent(in), optional :: is_csv          !< left out: .false.
-      type(table_t) :: tables(2)
-
-      call build_values(limit, tables(1))
-      call build_mechanism(limit, tables(2))
-      call write_table_set(folder, tables, origin, digits_of_tables, status, is_csv)
-   end subroutine write_stability
-
+   !> limit.tab: a row a value that was tried.
    pure subroutine build_values(limit, table)
-      type(stability_t), intent(in) :: limit
-      type(table_t), intent(out) :: table
+      type(stability_t), intent(in) :: limit           !< as found
+      type(table_t), intent(out) :: table              !< 'limit'
       integer :: i, k
 
       associate (values => limit%values)
@@ -69,9 +54,10 @@ contains
       if (allocated(one%observed)) observed_at = one%observed(k)
    end function observed_at
 
+   !> mechanism.tab: the motions of the bodies as it falls.
    pure subroutine build_mechanism(limit, table)
-      type(stability_t), intent(in) :: limit
-      type(table_t), intent(out) :: table
+      type(stability_t), intent(in) :: limit           !< with its collapse
+      type(table_t), intent(out) :: table              !< 'mechanism'
       type(string_t) :: words(size(limit%collapse%bodies))
       integer :: i
 

@@ -2,14 +2,12 @@
 module atrito_study_table
    use atrito_kinds, only: ip, wp, is_nan
    use atrito_page, only: page_t, begin_page, begin_report, add_files, add_line, add_rule, add_paragraph, left, right, number
-   use atrito_status, only: status_t
    use atrito_strings, only: string_t, to_text
    use atrito_study_errors, only: study_t, phase_seconds, total_seconds, WALL, PROCESSOR
-   use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_integers, add_words
-   use atrito_table_text, only: write_table_set
+   use atrito_table, only: table_t, begin_table, add_reals, add_integers, add_words
    implicit none (type, external)
    private
-   public :: write_study, compose_study
+   public :: build_study, compose_study
 
    character(len=8), parameter :: PHASES(10) = [character(len=8) :: 'read', 'mesh', 'order', 'assemble', 'factor', 'iterate', &
                                                                                             'recover', 'estimate', 'check', 'write']
@@ -17,23 +15,10 @@ module atrito_study_table
 
 contains
 
-   !> Writes study.tab. status: STATUS_FILE.
-   subroutine write_study(folder, origin, study, digits, status, is_csv)
-      character(len=*), intent(in) :: folder        !< of the study
-      type(origin_t), intent(in) :: origin          !< for the head of the table
-      type(study_t), intent(in) :: study            !< judged
-      integer, intent(in) :: digits                 !< significant ones of reals
-      type(status_t), intent(out) :: status         !< STATUS_OK or STATUS_FILE
-      logical, intent(in), optional :: is_csv       !< left out: .false.
-      type(table_t) :: tables(1)
-
-      call build_study(study, tables(1))
-      call write_table_set(folder, tables, origin, digits, status, is_csv)
-   end subroutine write_study
-
+   !> study.tab: a row a run.
    subroutine build_study(study, table)
-      type(study_t), intent(in) :: study
-      type(table_t), intent(out) :: table
+      type(study_t), intent(in) :: study            !< judged
+      type(table_t), intent(out) :: table           !< 'study'
       type(string_t) :: elements(size(study%rows))
       character(len=:), allocatable :: phase
       integer(ip) :: n

@@ -6,11 +6,10 @@ module atrito_sweep_tables
    use atrito_read_table, only: table_file_t, read_table, table_path, find_column, item_text
    use atrito_status, only: status_t, STATUS_OK
    use atrito_strings, only: string_t, append_string, join, to_text
-   use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_integers, add_words
-   use atrito_table_text, only: write_table_set
+   use atrito_table, only: table_t, begin_table, add_reals, add_integers, add_words
    implicit none (type, external)
    private
-   public :: sweep_run_t, read_summary, row_of_quantity, write_sweep, compose_sweep, last_increment
+   public :: sweep_run_t, read_summary, row_of_quantity, summary_value, build_sweep, build_runs, compose_sweep, last_increment
 
    !> One run of a sweep.
    type :: sweep_run_t
@@ -56,22 +55,17 @@ contains
       row = 0
    end function row_of_quantity
 
-   !> Writes sweep.tab and runs.tab. status: STATUS_FILE.
-   subroutine write_sweep(folder, origin, names, observed, runs, digits_of_tables, status, is_csv)
-      character(len=*), intent(in) :: folder           !< of the sweep
-      type(origin_t), intent(in) :: origin             !< for the heads of the tables
-      type(string_t), intent(in) :: names(:)           !< the parameters
-      type(string_t), intent(in) :: observed(:)        !< quantities of the step that have a column of their own
-      type(sweep_run_t), intent(in) :: runs(:)         !< in the order of the sweep
-      integer, intent(in) :: digits_of_tables          !< significant ones of reals
-      type(status_t), intent(out) :: status            !< STATUS_OK or STATUS_FILE
-      logical, intent(in), optional :: is_csv          !< left out: .false.
-      type(table_t) :: tables(2)
+   !> The value of a quantity of the first pair, or of the step, in the last increment.
+   pure real(wp) function summary_value(summary, quantity, missing) result(value)
+      type(table_file_t), intent(in) :: summary  !< summary.tab of a run
+      character(len=*), intent(in) :: quantity   !< in its column quantity
+      real(wp), intent(in) :: missing            !< where it has none
+      integer(ip) :: row
 
-      call build_sweep(names, observed, runs, tables(1))
-      call build_runs(names, observed, runs, tables(2))
-      call write_table_set(folder, tables, origin, digits_of_tables, status, is_csv)
-   end subroutine write_sweep
+      row = row_of_quantity(summary, quantity)
+      value = missing
+      if (row > 0) value = summary%value(find_column(summary, 'value'), row)
+   end function summary_value
 
    !> The first row of the last increment.
    pure integer(ip) function last_increment(summary) result(row)
@@ -91,9 +85,9 @@ contains
 
    !> The parameters, then the columns of summary.tab, then what is observed in the increment.
    subroutine build_sweep(names, observed, runs, table)
-      type(string_t), intent(in) :: names(:), observed(:)
-      type(sweep_run_t), intent(in) :: runs(:)
-      type(table_t), intent(out) :: table
+      type(string_t), intent(in) :: names(:), observed(:) !< the parameters; quantities of the step that have a column of their own
+      type(sweep_run_t), intent(in) :: runs(:)            !< in the order of the sweep
+      type(table_t), intent(out) :: table                 !< 'sweep'
       integer(ip), allocatable :: of_row(:), step(:), pair(:), increment(:)
       type(string_t), allocatable :: quantities(:), amounts(:)
       integer(ip) :: i, j, n
@@ -155,12 +149,14 @@ contains
 
    !> A row a run: how it ended, where it is, and what is observed at its end.
    subroutine build_runs(names, observed, runs, table)
-      type(string_t), intent(in) :: names(:), observed(:)
-      type(sweep_run_t), intent(in) :: runs(:)
-      type(table_t), intent(out) :: table
+      type(string_t), intent(in) :: names(:), observed(:) !< as of build_sweep
+      type(sweep_run_t), intent(in) :: runs(:)            !< in the order of the sweep
+      type(table_t), intent(out) :: table                 !< 'runs'
       type(string_t) :: folders(size(runs))
+      real(wp) :: nan
       integer(ip) :: i, j, n
 
+      nan = ieee_value(1.0_wp, ieee_quiet_nan)
       n = size(runs, kind=ip)
       do i = 1, n
          folders(i)%s = runs(i)%folder
@@ -173,21 +169,11 @@ contains
       call add_integers(table, 'exit', [(int(runs(i)%code, ip), i=1, n)])
       call add_integers(table, 'factorisations', [(runs(i)%factorisations, i=1, n)])
       do i = 1, size(observed, kind=ip)
-         call add_reals(table, observed(i)%s, 'mixed', [(value_at_end(runs(j), observed(i)%s), j=1, n)], 0.0_wp)
+         call add_reals(table, observed(i)%s, 'mixed', [(merge(summary_value(runs(j)%summary, observed(i)%s, nan), nan, &
+                                                               runs(j)%is_whole), j=1, n)], 0.0_wp)
       end do
       call add_words(table, 'folder', '-', folders, on_the_left=.true.)
    end subroutine build_runs
-
-   !> A value of the summary; nan where there is none, or none of the end of the history.
-   pure real(wp) function value_at_end(run, quantity) result(value)
-      type(sweep_run_t), intent(in) :: run
-      character(len=*), intent(in) :: quantity
-      integer(ip) :: row
-
-      row = row_of_quantity(run%summary, quantity)
-      value = ieee_value(1.0_wp, ieee_quiet_nan)
-      if (row > 0 .and. run%is_whole) value = run%summary%value(find_column(run%summary, 'value'), row)
-   end function value_at_end
 
    !> The closing lines: a row a run, what is observed first, as far as there is room, and the usual quantities of the first contact
    !> pair behind it.

@@ -412,6 +412,7 @@ contains
       type(string_t), allocatable :: names(:)
       real(wp), allocatable :: field(:, :), x(:, :), s(:)
       integer(ip), allocatable :: element(:)
+      logical :: is_motion
       integer(ip) :: i, first, n
       integer :: k
 
@@ -443,11 +444,9 @@ contains
       call add_reals(table, 'y', 'L', x(2, :), scales%length)
       call add_integers(table, 'element', element)
       do k = 1, size(PATH_COLUMNS)
-         if (PATH_COLUMNS(k) (1:1) == 'u') then
-            call add_reals(table, trim(PATH_COLUMNS(k)), 'L', field(:, k), scales%displacement)
-         else
-            call add_reals(table, trim(PATH_COLUMNS(k)), 'F/L^2', field(:, k), scales%nodal_stress)
-         end if
+         is_motion = PATH_COLUMNS(k) (1:1) == 'u'
+         call add_reals(table, trim(PATH_COLUMNS(k)), trim(merge('L    ', 'F/L^2', is_motion)), field(:, k), &
+                        merge(scales%displacement, scales%nodal_stress, is_motion))
       end do
    end subroutine build_path_table
 

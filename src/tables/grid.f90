@@ -10,7 +10,7 @@ module atrito_grid
    use atrito_units, only: name_units
    implicit none (type, external)
    private
-   public :: grid_t, begin_grid, add_row, put_grid, put_table, CELL
+   public :: grid_t, begin_grid, add_row, put_grid, put_table, CELL, add_matrix
 
    character(len=1), parameter :: CELL = achar(9)   !< between the cells of a row
    integer, parameter :: INDENT = 3, GAP = 2, DIGITS = 6
@@ -21,6 +21,8 @@ module atrito_grid
       integer :: n_kept = 1                         !< columns that begin each part of a wide one
       type(string_t), allocatable :: rows(:)        !< the first one is the head
    end type grid_t
+
+   integer(ip), parameter :: COLUMNS = 8             !< of a block: a terminal of 80 columns does not wrap
 
 contains
 
@@ -234,5 +236,34 @@ contains
          end select
       end associate
    end function text_of
+
+   !> A matrix, its columns in blocks, as four decimals times a power of ten, which the title tells.
+   pure subroutine add_matrix(page, title, a, first)
+      type(page_t), intent(inout) :: page                !< gets the lines
+      character(len=*), intent(in) :: title              !< what it is, with its dimension
+      real(wp), intent(in) :: a(:, :)                    !< of any shape, finite
+      character(len=*), intent(in), optional :: first(:) !< what stands before each row; left out: its number
+      character(len=4 + 9*COLUMNS) :: line
+      integer(ip) :: i, j, k, power
+
+      power = 0
+      if (maxval(abs(a)) > 0.0_wp) power = floor(log10(maxval(abs(a))), ip)
+      call add_line(page, title//', in 1e'//to_text(power))
+      do j = 1, size(a, 2, kind=ip), COLUMNS
+         associate (last => min(j + COLUMNS - 1, size(a, 2, kind=ip)))
+            if (size(a, 2) > COLUMNS) call add_line(page, '  columns '//to_text(j)//' to '//to_text(last))
+            do i = 1, size(a, 1, kind=ip)
+               line = ''
+               if (present(first)) then
+                  line(:4) = first(i)
+               else
+                  write (line(:4), '(i3)') i
+               end if
+               write (line(5:), '(*(f9.4))') (a(i, k)/10.0_wp**power, k=j, last)
+               call add_line(page, line)
+            end do
+         end associate
+      end do
+   end subroutine add_matrix
 
 end module atrito_grid

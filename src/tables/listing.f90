@@ -369,8 +369,7 @@ contains
       b = results%balance
       if (b%is_revolved) then
          call add_line(page, '   of the full circle: what is radial, and moments, balance in themselves')
-         b = balance_t([0.0_wp, b%applied(2)], [0.0_wp, b%reactions(2)], rigid=[0.0_wp, b%rigid(2)], &
-                       rows=[0.0_wp, b%rows(2)])
+         b = balance_t([0.0_wp, b%applied(2)], [0.0_wp, b%reactions(2)], rigid=[0.0_wp, b%rigid(2)], rows=[0.0_wp, b%rows(2)])
       end if
       parts(:, 1) = [b%applied, b%applied_moment]
       parts(:, 2) = [b%reactions, b%reaction_moment]

@@ -317,8 +317,7 @@ contains
       value = [(last_value(model, k, model%steps(k)%prescribed, i), i=1, n)]
       moved = count(abs(value) > 0.0_wp, kind=ip)
       text = to_text(n)//' ('//to_text(along_1)//' along 1, '//to_text(n - along_1)//' along 2)'
-      if (moved > 0) text = text//', '//to_text(moved)//' not zero, the largest '// &
-                            number(maxval(abs(value)), DIGITS)//' [L]'
+      if (moved > 0) text = text//', '//to_text(moved)//' not zero, the largest '//number(maxval(abs(value)), DIGITS)//' [L]'
       call add_entry(page, 'prescribed displacements', text)
    end subroutine describe_supports
 

@@ -5,7 +5,7 @@
 !> run-time library, so that every number is rounded correctly and 17 digits give back the same double.
 module atrito_number_text
    use atrito_kinds, only: ip, lp, wp, HUGE_REAL, is_nan
-   use atrito_powers_of_ten, only: POWER, POWER_SHIFT, MOST_POWER, POWER_BITS, XP
+   use atrito_numbers, only: POWER, POWER_SHIFT, MOST_POWER, POWER_BITS, XP
    use atrito_strings, only: to_text
    implicit none (type, external)
    private

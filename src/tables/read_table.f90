@@ -11,7 +11,7 @@ module atrito_read_table
    use atrito_table, only: MARK_COLUMNS, MARK_NOT_CONVERGED, TAB_ENDING, CSV_ENDING, HEAD_ENDING
    implicit none (type, external)
    private
-   public :: table_file_t, read_table, parse_table, table_path, find_column, item_text
+   public :: table_file_t, read_table, parse_table, table_path, comment_of, find_column, item_text
    public :: ITEM_WORD, ITEM_INTEGER, ITEM_REAL, ITEM_NAN, HEAD_NAMES
 
    integer, parameter :: ITEM_WORD = 0, ITEM_INTEGER = 1, ITEM_REAL = 2, ITEM_NAN = 3
@@ -367,6 +367,20 @@ contains
          if (lower_case(text) == 'nan') kind = ITEM_NAN
       end if
    end subroutine read_item
+
+   !> The first line `# <what>: ...` of a table, without its mark; empty where there is none.
+   pure function comment_of(text, what) result(comment)
+      character(len=*), intent(in) :: text, what    !< the whole file; 'heading', 'deck'
+      character(len=:), allocatable :: comment
+      integer :: first, length
+
+      comment = ''
+      first = index(text, new_line('a')//'# '//what//': ')
+      if (first == 0) return
+      first = first + len(what) + 5
+      length = index(text(first:), new_line('a')) - 1
+      if (length > 0) comment = trim(text(first:first + length - 1))
+   end function comment_of
 
    !> Place of a column by name; 0 when there is none.
    pure integer(ip) function find_column(table, name) result(i)

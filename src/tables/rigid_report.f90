@@ -31,10 +31,8 @@ contains
 
       n = size(results%rigid, kind=ip)
       do i = 1, n
-         associate (body => results%rigid(i))
-            names(i)%s = one_word(body%name)
-            field(i, :) = numbers_of(body, scales)
-         end associate
+         names(i)%s = one_word(results%rigid(i)%name)
+         field(i, :) = numbers_of(results%rigid(i), scales)
       end do
       title = 'a row a rigid surface with a reference node'
       if (any(results%rigid%is_section)) title = title//', or a pre-tension section'

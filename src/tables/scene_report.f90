@@ -181,7 +181,7 @@ contains
       type(page_t), intent(inout) :: page !< the lines are added to it
       type(model_t), intent(in) :: model  !< sets, surfaces and materials are read
       character(len=:), allocatable :: text
-      integer(ip) :: i, n, in_use
+      integer(ip) :: i, n, in_use, n_faces
 
       call describe_sets(page, 'node sets (nodes)', model%node_sets)
       call describe_sets(page, 'element sets (elements)', model%element_sets)
@@ -189,11 +189,9 @@ contains
       n = size(model%surfaces, kind=ip)
       do i = 1, min(n, MOST_NAMES)
          associate (surface => model%surfaces(i))
-            if (surface%kind == SURFACE_SEGMENTS) then
-               call add_name(text, surface%name, size(surface%is_arc, kind=ip))
-            else
-               call add_name(text, surface%name, surface%faces%n)
-            end if
+            n_faces = surface%faces%n
+            if (surface%kind == SURFACE_SEGMENTS) n_faces = size(surface%is_arc, kind=ip)
+            call add_name(text, surface%name, n_faces)
          end associate
       end do
       call describe_list(page, 'surfaces (faces)', text, n)
@@ -236,11 +234,8 @@ contains
       integer(ip), intent(in) :: n                  !< names that there are
 
       if (n == 0) return
-      if (n > MOST_NAMES) then
-         call add_entry(page, label, text//' and '//to_text(n - MOST_NAMES)//' more')
-      else
-         call add_entry(page, label, text)
-      end if
+      if (n > MOST_NAMES) call add_entry(page, label, text//' and '//to_text(n - MOST_NAMES)//' more')
+      if (n <= MOST_NAMES) call add_entry(page, label, text)
    end subroutine describe_list
 
 end module atrito_scene_report

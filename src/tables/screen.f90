@@ -16,8 +16,7 @@ module atrito_screen
    use atrito_scene_report, only: describe_needs, describe_bodies, describe_names, describe_pairs
    use atrito_page, only: page_t, begin_report, add_blank, add_heading, add_item, add_line, add_rule, left, right, number, bytes, &
                           plural
-   use atrito_plot_files, only: plot_folder, told_pictures
-   use atrito_plot_files, only: REPORT_NAME
+   use atrito_plot_files, only: plot_folder, told_pictures, REPORT_NAME
    use atrito_summary, only: bound_text, error_text, large_text, pair_summary_t, summarise_pair, states_text, closed_word, &
                              body_count, pair_count, pair_name, uniqueness_text
    use atrito_table, only: TAB_ENDING, CSV_ENDING

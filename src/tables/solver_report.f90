@@ -29,9 +29,7 @@ contains
       if (uses(results%scene, 'skyline') .or. uses(results%scene, 'banded')) then
          call add_entry(page, 'order', 'reverse Cuthill-McKee, contact nodes last')
       end if
-      if (uses(results%scene, 'sparse')) then
-         call add_entry(page, 'order of sparse bodies', 'nested dissection, contact nodes last')
-      end if
+      if (uses(results%scene, 'sparse')) call add_entry(page, 'order of sparse bodies', 'nested dissection, contact nodes last')
       call add_entry(page, 'factorisations', to_text(max(history%factorisations, int(results%factorisations, ip))))
       call add_entry(page, 'linear solves of the line', to_text(int(results%linear_solves, ip)))
       call list_used_libraries(results%scene, list)

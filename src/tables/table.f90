@@ -1,7 +1,7 @@
 !> A table: named columns with dimensions. How it becomes text: atrito_table_text.
 module atrito_table
    use atrito_kinds, only: ip, wp, is_nan
-   use atrito_provenance, only: provenance_t
+   use atrito_model, only: provenance_t
    use atrito_strings, only: string_t, replaced
    use atrito_utf8, only: visible
    implicit none (type, external)

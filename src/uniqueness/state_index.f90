@@ -184,11 +184,7 @@ contains
          do i = 1, problem%m
             if (i <= n) then
                if (solution%bounds%lower(i) <= -HUGE_REAL) cycle
-               if (state(i) == FREE) then
-                  inside = q(i) > least_force*problem%weight(i)
-               else
-                  inside = r(i) < -least_gap
-               end if
+               inside = merge(q(i) > least_force*problem%weight(i), r(i) < -least_gap, state(i) == FREE)
             else if (state(i) == FREE) then
                inside = abs(q(i)) < (1 - ON_THE_EDGE)*solution%bounds%upper(i)
             else if (solution%bounds%upper(i) > 0.0_wp) then

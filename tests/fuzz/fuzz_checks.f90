@@ -4,7 +4,7 @@ module fuzz_checks
    use atrito_deck, only: deck_t
    use atrito_files, only: read_file
    use atrito_kinds, only: ip
-   use atrito_message_json, only: json_of_message
+   use atrito_messages, only: json_of_message
    use atrito_messages, only: message_t, count_messages, get_message, format_message, sort_messages, SEVERITY_ERROR, &
                               SEVERITY_NOTE
    use atrito_mesh, only: signed_area

@@ -1,8 +1,7 @@
 !> The expressions of *OBSERVE and --observe: read once against the model, evaluated at the end of each increment.
 module atrito_observations
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-   use atrito_expression_calls, only: call_t
-   use atrito_expression_names, only: is_name
+   use atrito_expression_names, only: call_t, is_name
    use atrito_expressions, only: evaluate_expression, expression_fault_t, list_calls
    use atrito_kinds, only: ip, is_nan, wp
    use atrito_linear_quantity, only: linear_quantity_t, POTENTIAL_ENERGY
@@ -19,7 +18,7 @@ module atrito_observations
    use atrito_summary, only: all_step_quantities, quantity_t
    implicit none (type, external)
    private
-   public :: observations_t, read_observations, observation_names
+   public :: observations_t, read_observations, observation_name, observation_names
 
    !> One of them.
    type :: observation_t
@@ -162,9 +161,9 @@ contains
       end associate
    end subroutine find_bound
 
-   !> NAME of `NAME=EXPRESSION`.
+   !> NAME of `NAME=EXPRESSION`, or of itself.
    pure function observation_name(text) result(name)
-      character(len=*), intent(in) :: text
+      character(len=*), intent(in) :: text             !< as the user wrote it
       character(len=:), allocatable :: name
 
       name = trim(adjustl(text))

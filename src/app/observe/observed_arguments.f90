@@ -4,7 +4,7 @@
 !>     s_rr(P), s_rr(x, y), s_rr(x, y, BODY)           about the origin
 !>     s_rr(P, xc, yc), s_rr(x, y, xc, yc[, BODY])     about a centre
 module atrito_observed_arguments
-   use atrito_expression_calls, only: argument_t, call_t
+   use atrito_expression_names, only: argument_t, call_t
    use atrito_expressions, only: evaluate_expression, expression_fault_t
    use atrito_kinds, only: ip, wp
    use atrito_messages, only: message_t

@@ -1,7 +1,6 @@
 !> What the names of an expression of --observe mean in a model: terms, or what is wrong with them.
 module atrito_observed_names
-   use atrito_expression_calls, only: call_t
-   use atrito_expression_names, only: DIGITS, reserved_names
+   use atrito_expression_names, only: call_t, DIGITS, reserved_names
    use atrito_kinds, only: ip
    use atrito_messages, only: message_t
    use atrito_model, only: model_t

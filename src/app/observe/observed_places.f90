@@ -2,8 +2,7 @@
 module atrito_observed_places
    use atrito_element, only: body_load
    use atrito_element_table, only: MOST_NODES
-   use atrito_expression_calls, only: argument_t
-   use atrito_expression_names, only: DIGITS
+   use atrito_expression_names, only: argument_t, DIGITS
    use atrito_face_loads, only: traction_load
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: depth_places, face_nodes, find_node

@@ -1,6 +1,6 @@
 !> Which observed quantities are linear and have bounds (--bound), and what they are made of.
 module atrito_observed_quantities
-   use atrito_expression_calls, only: call_t
+   use atrito_expression_names, only: call_t
    use atrito_expressions, only: evaluate_expression, expression_fault_t
    use atrito_kinds, only: ip, wp
    use atrito_linear_quantity, only: linear_part_t, linear_quantity_t, PART_FACES, PART_PAIR, PART_REACTION, PART_STRESS, &

@@ -96,11 +96,8 @@ contains
       real(wp) :: ends(2)
 
       name = trim(ZONE_FIELDS(term%field))
-      if (name(:6) == 'stick_') then
-         ends = stick_zone(contact, term%nu)
-      else
-         ends = contact_zone(contact)
-      end if
+      ends = contact_zone(contact)
+      if (name(:6) == 'stick_') ends = stick_zone(contact, term%nu)
       select case (name(index(name, '_') + 1:))
       case ('start')
          value = ends(1)

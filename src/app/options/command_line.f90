@@ -2,8 +2,7 @@
 module atrito_command_line
    use atrito_element_table, only: kind_named
    use atrito_kinds, only: ip, wp
-   use atrito_strings, only: string_t, append_string, nearest_names, to_text, deck_name, lower_case, upper_case, &
-                             trimmed_strings
+   use atrito_strings, only: string_t, append_string, nearest_names, to_text, deck_name, lower_case, upper_case, trimmed_strings
    use atrito_status, only: status_t
    use atrito_numbers, only: read_integer, read_real, NUMBER_OK
    use atrito_files, only: confine_files, file_exists, target_path, true_path

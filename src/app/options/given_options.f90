@@ -56,9 +56,7 @@ contains
          if (abs(command%limit_tolerance - fresh%limit_tolerance) > 0.0_wp) then
             call add_option('--tolerance', exact_text(command%limit_tolerance), text)
          end if
-         if (command%watched(1) > 0) then
-            call add_option('--watch', to_text(command%watched(1))//','//to_text(command%watched(2)), text)
-         end if
+         if (command%watched(1) > 0) call add_option('--watch', to_text(command%watched(1))//','//to_text(command%watched(2)), text)
       end select
       call options_of_run(command, text)
    end subroutine options_of_series

@@ -12,15 +12,15 @@ module atrito_series
    use atrito_messages, only: add_warning, clear_messages, count_messages, SEVERITY_ERROR
    use atrito_model, only: observed_line_t
    use atrito_observations, only: observation_names
-   use atrito_observed_lines, only: list_observed
+   use atrito_build_model, only: list_observed
    use atrito_page, only: page_t, print_page, add_above_rule
    use atrito_patched_text, only: named_text_t, digest_of_texts
-   use atrito_parameter_text, only: list_parameters
-   use atrito_plot_files, only: plot_folder, list_plots, remove_plots, PLOTS_OF_SWEEP, PLOTS_OF_STUDY, PLOTS_OF_LIMIT
+   use atrito_parameters, only: list_parameters
+   use atrito_plot_files, only: plot_folder, list_plots, remove_plots, PLOTS_OF_SWEEP, PLOTS_OF_STUDY, PLOTS_OF_LIMIT, &
+                                REPORT_NAME, remove_report
    use atrito_reader, only: read_deck
    use atrito_report, only: report_t
    use atrito_report_maker, only: make_report
-   use atrito_plot_files, only: REPORT_NAME, remove_report
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: string_t, append_string
    use atrito_sweep_journal, only: JOURNAL_NAME

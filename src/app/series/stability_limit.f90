@@ -34,11 +34,12 @@ module atrito_stability_limit
    use atrito_stability_search, only: search_t, begin_search, next_step, suggest_root, record_balance, record_solution, &
                                       standing_value, falling_value, balanced_value, STEP_BALANCE, STEP_DONE, STANDS, FALLS, &
                                       UNDECIDED, FOUND_LIMIT, FOUND_INTERVAL, BOTH_STAND, BOTH_FALL
-   use atrito_stability_tables, only: write_stability, compose_stability, large_where_it_stands
+   use atrito_stability_tables, only: build_values, build_mechanism, compose_stability, large_where_it_stands
    use atrito_status, only: status_t, set_status, reword_status, is_ok, STATUS_OK, STATUS_USAGE, &
                             STATUS_NOT_CONVERGED, STATUS_SINGULAR
    use atrito_strings, only: string_t, append_string, to_text
-   use atrito_table, only: origin_t
+   use atrito_table, only: origin_t, table_t
+   use atrito_table_text, only: write_table_set
    implicit none (type, external)
    private
    public :: run_limit
@@ -416,17 +417,19 @@ contains
       type(stability_t), intent(in) :: limit
       real(wp), intent(in) :: seconds(2)             !< wall clock and processor
       type(status_t), intent(out) :: status
+      type(table_t) :: tables(2)
       type(page_t) :: page
       type(report_t) :: report
       type(string_t), allocatable :: pictures(:)
 
       origin%not_converged = .not. limit%is_close
-      call write_stability(output_folder(command), origin, limit, int(command%digits), status, command%is_csv)
+      call build_values(limit, tables(1))
+      call build_mechanism(limit, tables(2))
+      call write_table_set(output_folder(command), tables, origin, int(command%digits), status, command%is_csv)
       if (.not. is_ok(status)) return
       call begin_pictures(command)
       allocate (pictures(0))
-      if (command%plot) call write_stability_plots(output_folder(command), origin%deck, model, limit, command%view, &
-                                                   pictures)
+      if (command%plot) call write_stability_plots(output_folder(command), origin%deck, model, limit, command%view, pictures)
       call compose_stability(command%names(1)%s, output_folder(command), limit, seconds, page, pictures)
       if (command%report) then
          call begin_series('limit', command%names(1)%s, output_folder(command), ['limit    ', 'mechanism'], pictures, report)

@@ -20,9 +20,10 @@ module atrito_study
    use atrito_study_plan, only: plan_study
    use atrito_study_plot, only: write_study_plot
    use atrito_study_runs, only: find_probe, make_command, has_failed, put_row, take_row, PROBES, make_run, time_again
-   use atrito_study_table, only: write_study, compose_study
+   use atrito_study_table, only: build_study, compose_study
    use atrito_study_words, only: judge_study
-   use atrito_table, only: origin_t
+   use atrito_table, only: origin_t, table_t
+   use atrito_table_text, only: write_table_set
    implicit none (type, external)
    private
    public :: run_study, serve_study
@@ -108,8 +109,7 @@ contains
       allocate (runs%study%probes(0))
       associate (row => runs%study%rows(probed_row(runs)))
          if (row%code /= STATUS_OK) return
-         list = pack([(i, i=1, size(PROBES, kind=ip))], &
-                     [row%has_delta, row%has_eps, row%has_stick_slope .and. .not. row%has_eps])
+         list = pack([(i, i=1, size(PROBES, kind=ip))], [row%has_delta, row%has_eps, row%has_stick_slope .and. .not. row%has_eps])
       end associate
       if (size(list) == 0) return
       call report_phase(runs%reporter, 'half of delta, half of eps')
@@ -156,9 +156,7 @@ contains
       if (task <= n) then
          associate (row => self%study%rows(task))
             call make_run(self%command, self%study, row, status)
-            if (is_ok(status) .and. .not. has_failed(row)) then
-               call time_again(self%command, self%study, row, self%is_first, status)
-            end if
+            if (is_ok(status) .and. .not. has_failed(row)) call time_again(self%command, self%study, row, self%is_first, status)
             call put_row(row, answer)
          end associate
          call put_status(answer, status)
@@ -208,6 +206,7 @@ contains
       type(origin_t), intent(inout) :: origin
       type(study_t), intent(inout) :: study
       type(status_t), intent(out) :: status
+      type(table_t) :: tables(1)
       type(page_t) :: page
       type(report_t) :: report
       type(command_t) :: one
@@ -217,7 +216,8 @@ contains
       study%rounding = max(study%rounding, 10.0_wp**(1 - command%digits))
       call judge_study(study)
       origin%not_converged = any(study%rows%code == STATUS_NOT_CONVERGED)
-      call write_study(output_folder(command), origin, study, int(command%digits), status, command%is_csv)
+      call build_study(study, tables(1))
+      call write_table_set(output_folder(command), tables, origin, int(command%digits), status, command%is_csv)
       if (.not. is_ok(status)) return
       call begin_pictures(command)
       title = origin%deck

@@ -3,6 +3,7 @@ module atrito_study_plan
    use atrito_command_line, only: command_t
    use atrito_kinds, only: ip, wp
    use atrito_numbers, only: read_real, NUMBER_OK
+   use atrito_observations, only: observation_name
    use atrito_series, only: find_observed
    use atrito_status, only: status_t, set_status, is_ok, STATUS_USAGE
    use atrito_strings, only: string_t, append_string, join, nearest_names
@@ -56,7 +57,7 @@ contains
       do i = 1, size(list)
          associate (quantity => study%quantities(i))
             equals = index(list(i)%s, '=')
-            quantity%name = quantity_of(list(i)%s)
+            quantity%name = observation_name(list(i)%s)
             call check_name(quantity%name, observed, status)
             if (.not. is_ok(status)) return
             if (equals == 0) cycle
@@ -80,7 +81,7 @@ contains
       list = command%references
       do i = 1, size(observed)
          do k = 1, size(command%references)
-            if (quantity_of(command%references(k)%s) == observed(i)%s) exit
+            if (observation_name(command%references(k)%s) == observed(i)%s) exit
          end do
          if (k > size(command%references)) call append_string(list, observed(i)%s)
       end do
@@ -88,15 +89,6 @@ contains
       call append_string(list, 'strain_energy')
       call append_string(list, 'normal_resultant')
    end subroutine list_references
-
-   !> QUANTITY of `QUANTITY=VALUE` or of itself.
-   pure function quantity_of(reference) result(name)
-      character(len=*), intent(in) :: reference
-      character(len=:), allocatable :: name
-
-      name = reference
-      if (index(reference, '=') > 0) name = reference(:index(reference, '=') - 1)
-   end function quantity_of
 
    subroutine check_name(name, observed, status)
       character(len=*), intent(in) :: name

@@ -11,7 +11,6 @@ module atrito_study_runs
    use atrito_messages, only: clear_messages
    use atrito_model, only: model_t
    use atrito_observations, only: observations_t
-   use atrito_read_table, only: table_file_t, find_column
    use atrito_buffer, only: buffer_t, put, take
    use atrito_reporter, only: reporter_t
    use atrito_results, only: history_t
@@ -22,7 +21,7 @@ module atrito_study_runs
    use atrito_study_errors, only: run_facts_t, study_t, study_row_t, total_seconds, PROCESSOR
    use atrito_study_plan, only: DECK_ELEMENTS
    use atrito_summary, only: quantity_t, scales_t, pair_quantities, step_quantities, summarise_pair
-   use atrito_sweep_tables, only: sweep_run_t, read_summary, row_of_quantity
+   use atrito_sweep_tables, only: sweep_run_t, read_summary, summary_value
    use atrito_timers, only: phase_time_t, reset_timers, get_phases
    implicit none (type, external)
    private
@@ -180,11 +179,11 @@ contains
       run%is_written = facts%is_whole                ! values of another time are no values of the study
       call read_summary(one%folder, run, status)
       nan = ieee_value(1.0_wp, ieee_quiet_nan)
-      row%values = [(amount(run%summary, study%quantities(i)%name, nan), i=1, size(study%quantities))]
-      row%estimate = amount(run%summary, 'error_estimate_percent', nan)
-      row%bound = amount(run%summary, 'error_bound_percent', -1.0_wp)
-      row%penetration = amount(run%summary, 'max_penetration', 0.0_wp)
-      row%pressure = amount(run%summary, 'max_pressure', 0.0_wp)
+      row%values = [(summary_value(run%summary, study%quantities(i)%name, nan), i=1, size(study%quantities))]
+      row%estimate = summary_value(run%summary, 'error_estimate_percent', nan)
+      row%bound = summary_value(run%summary, 'error_bound_percent', -1.0_wp)
+      row%penetration = summary_value(run%summary, 'max_penetration', 0.0_wp)
+      row%pressure = summary_value(run%summary, 'max_pressure', 0.0_wp)
    end subroutine make_run
 
    !> The command of one run.
@@ -217,17 +216,5 @@ contains
       end if
       one%folder = output_folder(command)//'/'//row%element//'_'//to_text(row%level)
    end subroutine make_command
-
-   !> A quantity of the first pair, or of the step; `missing` where the summary has none.
-   pure real(wp) function amount(summary, name, missing)
-      type(table_file_t), intent(in) :: summary
-      character(len=*), intent(in) :: name
-      real(wp), intent(in) :: missing
-      integer(ip) :: row
-
-      row = row_of_quantity(summary, name)
-      amount = missing
-      if (row > 0) amount = summary%value(find_column(summary, 'value'), row)
-   end function amount
 
 end module atrito_study_runs

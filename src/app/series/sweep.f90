@@ -29,8 +29,9 @@ module atrito_sweep
    use atrito_study_errors, only: run_facts_t
    use atrito_sweep_journal, only: sweep_journal_t, begin_journal, note_begin, note_end, find_done, remove_journal, OUTCOMES
    use atrito_sweep_plan, only: sweep_plan_t, plan_sweep
-   use atrito_sweep_tables, only: sweep_run_t, read_summary, write_sweep, compose_sweep
-   use atrito_table, only: origin_t
+   use atrito_sweep_tables, only: sweep_run_t, read_summary, build_sweep, build_runs, compose_sweep
+   use atrito_table, only: origin_t, table_t
+   use atrito_table_text, only: write_table_set
    use atrito_system, only: await_workers
    use atrito_timers, only: reset_timers
    implicit none (type, external)
@@ -261,6 +262,7 @@ contains
       type(sweep_run_t), intent(in) :: runs(:)
       real(wp), intent(in) :: seconds(2)            !< wall clock and processor
       type(status_t), intent(out) :: status
+      type(table_t) :: tables(2)
       type(page_t) :: page
       type(report_t) :: report
       type(origin_t) :: origin
@@ -274,14 +276,14 @@ contains
          origin = sweep%origin
          origin%not_converged = any(runs%code == STATUS_NOT_CONVERGED .or. (runs%is_written .and. .not. runs%is_whole))
          call find_observed(command, observed)
-         call write_sweep(output_folder(command), origin, plan%names, observed, runs, int(command%digits), status, &
-                          command%is_csv)
+         call build_sweep(plan%names, observed, runs, tables(1))
+         call build_runs(plan%names, observed, runs, tables(2))
+         call write_table_set(output_folder(command), tables, origin, int(command%digits), status, command%is_csv)
          if (.not. is_ok(status)) return
          call begin_pictures(command)
          allocate (pictures(0))
          if (command%plot) call plot_sweep(command, plan, runs, origin%deck, pictures)
-         call compose_sweep(command%names(1)%s, plan%names, observed, runs, &
-                            output_folder(command), seconds, page, pictures)
+         call compose_sweep(command%names(1)%s, plan%names, observed, runs, output_folder(command), seconds, page, pictures)
          if (command%report) then
             call begin_series('sweep', command%names(1)%s, output_folder(command), ['sweep', 'runs '], pictures, report)
             call report_of_sweep(plan%names, runs, seconds, report)

@@ -11,7 +11,7 @@ module atrito_sweep_journal
    use atrito_given_options, only: options_of_run
    use atrito_kinds, only: ip
    use atrito_numbers, only: read_integer, NUMBER_OK
-   use atrito_provenance, only: provenance_t
+   use atrito_model, only: provenance_t
    use atrito_read_table, only: table_path
    use atrito_status, only: status_t, is_ok, STATUS_OK, STATUS_NOT_CONVERGED, STATUS_SINGULAR
    use atrito_strings, only: to_text

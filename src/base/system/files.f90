@@ -8,7 +8,7 @@ module atrito_files
    use atrito_own_files, only: check_own, check_all_own, check_length, clear_temporary, remove_own_file, TEMPORARY
    use atrito_paths, only: file_exists, is_folder, make_folder, remove_folders, remove_file, remove_empty_folder, check_folder, &
                            true_path, target_path
-   use atrito_renaming, only: find_obstacle, replace_files, rename_over, recover_files
+   use atrito_renaming, only: find_obstacle, replace_files, name_new_files, recover_files
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_system, only: c_open_input, c_identify, c_note_input, forget_inputs, &
@@ -363,7 +363,7 @@ contains
       type(file_set_t), intent(in) :: set   !< all of its files closed
       type(status_t), intent(out) :: status !< STATUS_FILE where a file could not be replaced
       type(string_t) :: none(0)
-      integer :: i
+      integer :: i, done
 
       call find_obstacle(set%folder, set%names, none, status, may_be_read=.true.)
       if (is_ok(status)) then
@@ -376,7 +376,7 @@ contains
       end if
       if (is_ok(status)) then
          call hold_interrupts()
-         call rename_over(set%folder, set%names, status)
+         call name_new_files(set%folder, set%names, done, status)
          if (is_ok(status)) call keep_files(set)
          call release_interrupts()
       end if

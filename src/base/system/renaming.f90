@@ -12,7 +12,7 @@ module atrito_renaming
    use atrito_system, only: c_rename, c_may_write
    implicit none (type, external)
    private
-   public :: find_obstacle, replace_files, rename_over, recover_files
+   public :: find_obstacle, replace_files, name_new_files, recover_files
 
 contains
 
@@ -70,7 +70,7 @@ contains
          call append_string(paths, folder//'/'//stale(i)%s)
       end do
       call move_aside(paths, is_aside, status)
-      call name_new_files(paths(:size(names)), done, status)
+      call name_new_files(folder, names, done, status)
       if (is_ok(status)) then
          do i = 1, size(paths)
             if (is_aside(i)) call remove_file(paths(i)%s//FORMER)
@@ -120,20 +120,6 @@ contains
       if (is_ok(status) .and. .not. is_folder(first)) ignored = renamed(path, first)
    end subroutine bring_back
 
-   !> Gives new files their names, over the former ones.
-   subroutine rename_over(folder, names, status)
-      character(len=*), intent(in) :: folder        !< as the user wrote it, without / at its end
-      type(string_t), intent(in) :: names(:)        !< of new files, which have temporary names; without folder
-      type(status_t), intent(out) :: status         !< STATUS_FILE where one, and none behind it, has its name
-      integer :: i
-
-      do i = 1, size(names)
-         if (renamed(folder//'/'//names(i)%s//TEMPORARY, folder//'/'//names(i)%s)) cycle
-         call set_status(status, STATUS_FILE, folder//'/'//names(i)%s//': cannot be written')
-         return
-      end do
-   end subroutine rename_over
-
    !> Gives former files their second name; a folder with the name of a stale file is somebody else's.
    subroutine move_aside(paths, is_aside, status)
       type(string_t), intent(in) :: paths(:)
@@ -151,18 +137,19 @@ contains
       end do
    end subroutine move_aside
 
-   subroutine name_new_files(paths, done, status)
-      type(string_t), intent(in) :: paths(:)
+   !> Gives new files their names, over former ones.
+   subroutine name_new_files(folder, names, done, status)
+      character(len=*), intent(in) :: folder        !< as the user wrote it, without / at its end
+      type(string_t), intent(in) :: names(:)        !< of new files, which have temporary names; without folder
       integer, intent(out) :: done                  !< files that have their names
-      type(status_t), intent(inout) :: status       !< nothing is done where it is not STATUS_OK
+      type(status_t), intent(inout) :: status       !< nothing is done where it is not STATUS_OK; STATUS_FILE where one has no name
 
       done = 0
-      do while (is_ok(status) .and. done < size(paths))
-         if (renamed(paths(done + 1)%s//TEMPORARY, paths(done + 1)%s)) then
-            done = done + 1
-         else
-            call set_status(status, STATUS_FILE, paths(done + 1)%s//': cannot be written')
-         end if
+      do while (is_ok(status) .and. done < size(names))
+         associate (path => folder//'/'//names(done + 1)%s)
+            if (.not. renamed(path//TEMPORARY, path)) call set_status(status, STATUS_FILE, path//': cannot be written')
+         end associate
+         if (is_ok(status)) done = done + 1
       end do
    end subroutine name_new_files
 

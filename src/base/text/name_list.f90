@@ -1,6 +1,6 @@
 !> A list of names, each found by a hash of its letters: a deck can have names by the thousand, and be wrong in every line.
 module atrito_name_list
-   use atrito_growing_text, only: growing_text_t, append_text
+   use atrito_growth, only: growing_text_t, append_text
    use atrito_kinds, only: ip, lp
    use atrito_strings, only: string_t, same_name, lower_case
    implicit none (type, external)

@@ -4,11 +4,11 @@
 !> number (1,5  3*2  2/3  1+5  nan  inf) is refused, and so is what does not fit into a double (1e999).
 module atrito_numbers
    use atrito_kinds, only: ip, lp, wp
-   use atrito_powers_of_ten, only: POWER, POWER_SHIFT, MOST_POWER, POWER_BITS, XP
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
    public :: read_real, read_integer, exact_text, NUMBER_OK, NUMBER_MALFORMED, NUMBER_TOO_LARGE, NUMBER_NOT_INTEGER
+   public :: POWER, POWER_SHIFT, MOST_POWER, POWER_BITS, XP
 
    integer, parameter :: NUMBER_OK = 0
    integer, parameter :: NUMBER_MALFORMED = 1      !< not of the form above
@@ -29,6 +29,37 @@ module atrito_numbers
    integer, parameter :: LARGEST_POWER = 309
    !> First 17 digits of the largest double, 1.7976931348623157e308; a number that begins so does not overflow yet.
    integer(lp), parameter :: LARGEST_DIGITS = 17976931348623157_lp
+
+   !> Integers of 128 bits: the product of two of 63. Of a product with a power of ten the upper 63 bits,
+   !> int(shiftr(int(a, XP)*int(POWER(k), XP), POWER_BITS), lp), are right but for one and a half of their last: a half from the
+   !> rounding of POWER, one from what is cut off.
+   integer, parameter :: XP = selected_int_kind(38)
+   integer, parameter :: POWER_BITS = 63
+   !> 10**k = POWER(k) 2**POWER_SHIFT(k), 2**62 <= POWER(k) < 2**63, rounded; exact for 0 <= k <= 27.
+   integer, parameter :: MOST_POWER = 44
+   integer(lp), parameter :: POWER(-MOST_POWER:MOST_POWER) = [ &
+           8227522786606030211_lp, 5142201741628768882_lp, 6427752177035961102_lp, 8034690221294951378_lp, 5021681388309344611_lp, &
+           6277101735386680764_lp, 7846377169233350955_lp, 4903985730770844347_lp, 6129982163463555433_lp, 7662477704329444292_lp, &
+           4789048565205902682_lp, 5986310706507378353_lp, 7482888383134222941_lp, 4676805239458889338_lp, 5846006549323611673_lp, &
+           7307508186654514591_lp, 9134385233318143239_lp, 5708990770823839524_lp, 7136238463529799405_lp, 8920298079412249257_lp, &
+           5575186299632655785_lp, 6968982874540819732_lp, 8711228593176024665_lp, 5444517870735015415_lp, 6805647338418769269_lp, &
+           8507059173023461587_lp, 5316911983139663492_lp, 6646139978924579365_lp, 8307674973655724206_lp, 5192296858534827629_lp, &
+           6490371073168534536_lp, 8112963841460668170_lp, 5070602400912917606_lp, 6338253001141147007_lp, 7922816251426433759_lp, &
+           4951760157141521100_lp, 6189700196426901374_lp, 7737125245533626718_lp, 4835703278458516699_lp, 6044629098073145874_lp, &
+           7555786372591432342_lp, 4722366482869645214_lp, 5902958103587056517_lp, 7378697629483820646_lp, 4611686018427387904_lp, &
+           5764607523034234880_lp, 7205759403792793600_lp, 9007199254740992000_lp, 5629499534213120000_lp, 7036874417766400000_lp, &
+           8796093022208000000_lp, 5497558138880000000_lp, 6871947673600000000_lp, 8589934592000000000_lp, 5368709120000000000_lp, &
+           6710886400000000000_lp, 8388608000000000000_lp, 5242880000000000000_lp, 6553600000000000000_lp, 8192000000000000000_lp, &
+           5120000000000000000_lp, 6400000000000000000_lp, 8000000000000000000_lp, 5000000000000000000_lp, 6250000000000000000_lp, &
+           7812500000000000000_lp, 4882812500000000000_lp, 6103515625000000000_lp, 7629394531250000000_lp, 4768371582031250000_lp, &
+           5960464477539062500_lp, 7450580596923828125_lp, 4656612873077392578_lp, 5820766091346740723_lp, 7275957614183425903_lp, &
+           9094947017729282379_lp, 5684341886080801487_lp, 7105427357601001859_lp, 8881784197001252323_lp, 5551115123125782702_lp, &
+           6938893903907228378_lp, 8673617379884035472_lp, 5421010862427522170_lp, 6776263578034402713_lp, 8470329472543003391_lp, &
+                             5293955920339377119_lp, 6617444900424221399_lp, 8271806125530276749_lp, 5169878828456422968_lp]
+
+   !> floor(k log2(10)) - 62.
+   integer :: k
+   integer, parameter :: POWER_SHIFT(-MOST_POWER:MOST_POWER) = [(shifta(k*217706, 16) - POWER_BITS + 1, k=-MOST_POWER, MOST_POWER)]
 
 contains
 
@@ -264,5 +295,7 @@ contains
          if (negative) value = -value
       end if
    end subroutine read_integer
+
+
 
 end module atrito_numbers

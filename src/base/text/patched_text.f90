@@ -3,7 +3,7 @@
 module atrito_patched_text
    use atrito_digest, only: text_digest_t, add_characters, hexadecimal
    use atrito_files, only: file_set_t, text_file_t, open_text, put_text, close_text
-   use atrito_growing_text, only: growing_text_t, append_text
+   use atrito_growth, only: growing_text_t, append_text
    use atrito_kinds, only: ip
    use atrito_status, only: status_t
    use atrito_strings, only: string_t

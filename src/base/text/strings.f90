@@ -4,7 +4,7 @@ module atrito_strings
    implicit none (type, external)
    private
    public :: string_t, string_list_t, add_string, take_strings, replaced, recoded
-   public :: break_line, trimmed_strings
+   public :: break_line, trimmed_strings, split_words
    public :: lower_case, upper_case, to_text, join, nearest_names, edit_distance, same_name, append_string, deck_name, count_symbol
    public :: begins_with, ends_with, fits_pattern
 
@@ -401,6 +401,23 @@ contains
       name = path(index(path, '/', back=.true.) + 1:)
       if (ends_with(lower_case(name), '.inp')) name = name(:len(name) - len('.inp'))
    end function deck_name
+
+   !> The words of a text.
+   pure subroutine split_words(text, between, words)
+      character(len=*), intent(in) :: text, between         !< characters of the latter stand between words, and round them
+      type(string_t), allocatable, intent(out) :: words(:)  !< none is empty
+      integer :: first, last
+
+      allocate (words(0))
+      last = 0
+      do
+         first = verify(text(last + 1:), between)
+         if (first == 0) return
+         first = last + first
+         last = first + scan(text(first:)//between, between) - 2
+         call append_string(words, text(first:last))
+      end do
+   end subroutine split_words
 
    !> A text of the same length with one letter in the place of each of some.
    pure function replaced(text, letters, by)

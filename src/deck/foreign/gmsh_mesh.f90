@@ -139,9 +139,7 @@ contains
       type(gmsh_mesh_t), intent(inout) :: mesh !< lists of elements get this length
       integer(ip), intent(in) :: n_elements    !< >= those that there are
 
-      if (.not. allocated(mesh%element_id)) then
-         allocate (mesh%element_id(0), mesh%shape(0), mesh%part(0), mesh%nodes(MOST_NODES, 0))
-      end if
+      if (.not. allocated(mesh%element_id)) allocate (mesh%element_id(0), mesh%shape(0), mesh%part(0), mesh%nodes(MOST_NODES, 0))
       call resize_elements(mesh, n_elements)
    end subroutine trim_gmsh_mesh
 
@@ -175,11 +173,8 @@ contains
 
       i = place_of(mesh%name_keys, key_of(dim, tag))
       if (size(mesh%names) == 0) i = 0                 ! the second list was empty
-      if (i > 0) then
-         name = mesh%names(i)%name
-      else
-         name = 'Physical'//trim(ENTITY(dim))//to_text(tag)
-      end if
+      name = 'Physical'//trim(ENTITY(dim))//to_text(tag)
+      if (i > 0) name = mesh%names(i)%name
    end function group_name
 
    !> The name of an entity.

@@ -10,7 +10,7 @@ module atrito_check_contact
    use atrito_kinds, only: ip, lp, wp, PI
    use atrito_mesh, only: mesh_t, face_end, face_nodes, side_count
    use atrito_model, only: model_t, SURFACE_SEGMENTS, QUADRATURE_AUTO, FRICTION_NONLOCAL, KERNEL_LINE
-   use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_growth, only: number_list_t, add_number, numbers_of
    use atrito_pairing, only: slave_stiffness
    use atrito_sorting, only: sorted_places, each_once
    use atrito_strings, only: to_text

@@ -10,7 +10,7 @@ module atrito_check_contact_sense
    use atrito_kinds, only: ip, wp, lp
    use atrito_mesh, only: mesh_t, face_nodes
    use atrito_model, only: model_t, element_load_t, is_on_volume
-   use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_growth, only: number_list_t, add_number, numbers_of
    use atrito_smooth_normals, only: smooth_surface
    use atrito_sorting, only: each_once, sorted_places
    use atrito_strings, only: to_text

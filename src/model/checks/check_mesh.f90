@@ -8,7 +8,7 @@ module atrito_check_mesh
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t, side_between, side_count, face_end, middle_node
    use atrito_model, only: model_t, FORMULATION_STANDARD, FORMULATION_BBAR
-   use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_growth, only: number_list_t, add_number, numbers_of
    use atrito_plane_state, only: STATES, IS_REDUCED
    use atrito_refinement, only: is_refined
    use atrito_strings, only: to_text

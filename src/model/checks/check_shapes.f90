@@ -9,11 +9,10 @@ module atrito_check_shapes
    use atrito_build_context, only: build_context_t, place_token
    use atrito_element_table, only: SHAPES, MOST_NODES, MOST_CORNERS
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: mesh_t, face_end
+   use atrito_mesh, only: mesh_t, face_end, turned_nodes
    use atrito_messages, only: MOST_ERRORS
    use atrito_shape_functions, only: shape_gradients, shape_values, gauss_point
    use atrito_strings, only: to_text
-   use atrito_turned_elements, only: turned_nodes
    use atrito_threads, only: is_shared, chunk_count, find_chunk
    implicit none (type, external)
    private

@@ -145,9 +145,7 @@ contains
          call add_face(context%cut_faces, faces%element(i), faces%face(i))
          call add_face(context%cut_faces, changes%other(i), changes%other_face(i))
       end do
-      associate (x => context%model%mesh%x(:, changes%node))
-         cut%size = norm2(maxval(x, dim=2) - minval(x, dim=2))
-      end associate
+      cut%size = norm2(maxval(context%model%mesh%x(:, changes%node), dim=2) - minval(context%model%mesh%x(:, changes%node), dim=2))
       before = context%model%mesh%n_nodes
       cut%other = changes%node
       cut%own = [(before + i, i=1, size(changes%node, kind=ip))]

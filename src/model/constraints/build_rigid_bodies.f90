@@ -3,14 +3,13 @@ module atrito_build_rigid_bodies
    use atrito_build_context, only: build_context_t, count_cards
    use atrito_deck, only: card_t, token_t, keyword_name
    use atrito_diagnostics, only: report_error
-   use atrito_growth, only: resize
+   use atrito_growth, only: resize, number_list_t, add_numbers, numbers_of
    use atrito_id_map, only: add_id, find_id
    use atrito_items, only: has_option, option_text
    use atrito_kinds, only: ip, wp
    use atrito_local_axes, only: has_local_axes
    use atrito_mesh, only: is_revolved
    use atrito_model, only: model_t, rigid_body_name, rigid_body_t, SURFACE_SEGMENTS
-   use atrito_number_list, only: number_list_t, add_numbers, numbers_of
    use atrito_references, only: find_elements, find_nodes, find_surface, in_no_element
    use atrito_refined_members, only: add_nodes_between
    use atrito_refinement, only: is_refined
@@ -260,10 +259,8 @@ contains
       type(rigid_body_t), intent(in) :: body           !< its node is not yet one
       logical :: known
 
-      associate (n => context%rigid_bodies%n)
-         context%model%rigid_bodies(n + 1) = body
-         call add_id(context%rigid_bodies, body%node, n + 1, known)
-      end associate
+      context%model%rigid_bodies(context%rigid_bodies%n + 1) = body
+      call add_id(context%rigid_bodies, body%node, context%rigid_bodies%n + 1, known)
    end subroutine append_rigid_body
 
    !> The nodes that carry the motion of a rigid body: at its reference node, and at its size from that along 1 and along 2.

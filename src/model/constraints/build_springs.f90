@@ -70,9 +70,7 @@ contains
          if (keyword_name(context%deck%cards(i)) == 'SPRING') call read_spring_card(context%deck%cards(i), context, reading)
       end do
       ! a misspelt *SPRING: its springs are not blamed for missing it
-      associate (cards => context%deck%cards)
-         if (any(cards%name == '' .and. .not. cards%is_ignored) .and. has_errors()) return
-      end associate
+      if (any(context%deck%cards%name == '' .and. .not. context%deck%cards%is_ignored) .and. has_errors()) return
       do k = 1, reading%sets%n
          i = reading%first(k)
          if (reading%given(k) .or. reading%first(k + 1) == i) cycle

@@ -14,7 +14,7 @@ module atrito_build_supports
    use atrito_references, only: find_nodes, in_no_element
    use atrito_refined_members, only: edge_value
    use atrito_refinement, only: edge_place, is_refined
-   use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_growth, only: number_list_t, add_number, numbers_of
    use atrito_row_dofs, only: has_no_unknowns, WHAT_DOF, AT_REFERENCE
    use atrito_sources, only: open_source
    use atrito_strings, only: same_name, string_t, to_text

@@ -11,7 +11,7 @@ module atrito_build_ties
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: face_nodes
    use atrito_model, only: model_t, tie_t, QUADRATURE_NODAL, QUADRATURE_MORTAR, SURFACE_SEGMENTS
-   use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_growth, only: number_list_t, add_number, numbers_of
    use atrito_pairing, only: pair_surfaces
    use atrito_points, only: contact_points_t
    use atrito_references, only: find_surface

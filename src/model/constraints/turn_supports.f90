@@ -28,10 +28,8 @@ contains
       type(condition_list_t) :: inclined
 
       if (context%open%number == 1) call begin_rows(context%model%bilateral)
-      associate (step => context%model%steps(context%open%number))
-         call turn_list(context, .false., step%prescribed, inclined)
-         call turn_list(context, .true., step%rigid_prescribed, inclined)
-      end associate
+      call turn_list(context, .false., context%model%steps(context%open%number)%prescribed, inclined)
+      call turn_list(context, .true., context%model%steps(context%open%number)%rigid_prescribed, inclined)
       if (allocated(context%axes)) call keep_inclined(context, inclined)
    end subroutine turn_supports
 

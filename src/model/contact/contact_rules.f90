@@ -7,7 +7,7 @@ module atrito_contact_rules
    use atrito_kinds, only: ip, lp, wp
    use atrito_model, only: SURFACE_SEGMENTS, QUADRATURE_AUTO, QUADRATURE_NODAL, QUADRATURE_MORTAR
    use atrito_name_list, only: find_name
-   use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_growth, only: number_list_t, add_number, numbers_of
    use atrito_references, only: find_surface, report_unknown
    use atrito_sorting, only: first_at_least, sorted_places
    use atrito_strings, only: fits_pattern, same_name, to_text

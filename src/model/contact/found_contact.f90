@@ -19,7 +19,7 @@ module atrito_found_contact
    use atrito_kinds, only: ip, lp, wp
    use atrito_master, only: master_t, master_of_faces, master_of_segments
    use atrito_model, only: model_t, pair_t, surface_t, interaction_t, SURFACE_SEGMENTS
-   use atrito_number_list, only: numbers_of
+   use atrito_growth, only: numbers_of
    use atrito_outlines, only: outlines_t, sighting_t, list_outlines, look_around
    use atrito_nodal_points, only: finds_master
    use atrito_sorting, only: sorted_places

@@ -3,13 +3,12 @@ module atrito_pairing
    use atrito_faces, only: face_list_t, chain_report_t, order_chain
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
    use atrito_master, only: master_t, master_of_faces, master_of_segments, turn_master
-   use atrito_model, only: model_t, SURFACE_SEGMENTS, QUADRATURE_NODAL, QUADRATURE_MORTAR
+   use atrito_model, only: model_t, SURFACE_SEGMENTS, QUADRATURE_NODAL, QUADRATURE_MORTAR, elasticity_of
    use atrito_mortar_points, only: pair_by_mortar
    use atrito_nodal_points, only: pair_with_master
    use atrito_plane_state, only: compliance_matrix, COMPONENTS
    use atrito_points, only: contact_points_t, sliding_t
    use atrito_mesh, only: is_revolved
-   use atrito_section_elasticity, only: elasticity_of
    use atrito_sliding_motions, only: chords_t, list_chords, find_sliding, note_doubt, printed_grain, serves, adopted, sharpness
    use atrito_sorting, only: sorted_places
    implicit none (type, external)
@@ -152,10 +151,8 @@ contains
       integer(ip) :: i
 
       do i = 1, faces%n
-         associate (e => faces%element(i))
-            associate (section => model%sections(model%section_of(e)))
-               c = compliance_matrix(elasticity_of(section, model%materials(section%material)), model%mesh%state(e))
-            end associate
+         associate (section => model%sections(model%section_of(faces%element(i))))
+            c = compliance_matrix(elasticity_of(section, model%materials(section%material)), model%mesh%state(faces%element(i)))
          end associate
          compliance(i) = 0.5_wp*(c(1, 1) + c(2, 2))    ! of an isotropic material they are the same
       end do

@@ -111,10 +111,8 @@ contains
                                                    ' has two *EXPANSION', expected='one *EXPANSION a material', keyword='EXPANSION')
       material%has_expansion = .true.
       if (card%n_lines == 0) return
-      associate (line => deck%lines(card%first_line))
-         if (.not. line%ok) return
-         call get_real(deck, line_item(deck, line, 1_ip), WHAT, material%expansion, ok, keyword='EXPANSION')
-      end associate
+      if (.not. deck%lines(card%first_line)%ok) return
+      call get_real(deck, line_item(deck, deck%lines(card%first_line), 1_ip), WHAT, material%expansion, ok, keyword='EXPANSION')
       if (ok) call check_constant(deck, card, [material%expansion], 'coefficients of expansion', ok)
    end subroutine read_expansion_card
 

@@ -13,7 +13,7 @@ module atrito_node_fields
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
    use atrito_model, only: step_t
-   use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_growth, only: number_list_t, add_number, numbers_of
    use atrito_plane_state, only: TAPERED_STATE, IS_TAPERED
    use atrito_propagation, only: removes_all
    use atrito_read_elastic, only: get_positive
@@ -321,9 +321,7 @@ contains
                                                               keyword=THICKNESS)
          return
       end if
-      if (.not. allocated(context%node_thickness)) then
-         allocate (context%node_thickness(context%model%mesh%n_nodes), source=0.0_wp)
-      end if
+      if (.not. allocated(context%node_thickness)) allocate (context%node_thickness(context%model%mesh%n_nodes), source=0.0_wp)
       allocate (is_reported(context%model%mesh%n_nodes), source=.false.)
       first = 0
       associate (mesh => context%model%mesh)

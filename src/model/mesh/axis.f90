@@ -6,7 +6,7 @@ module atrito_axis
    use atrito_kinds, only: ip, wp
    use atrito_load_lists, only: condition_t, add_condition
    use atrito_model, only: model_t
-   use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_growth, only: number_list_t, add_number, numbers_of
    use atrito_plane_state, only: STATES
    use atrito_propagation, only: is_inherited
    use atrito_strings, only: to_text

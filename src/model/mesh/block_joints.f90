@@ -4,7 +4,6 @@
 module atrito_block_joints
    use atrito_block_map, only: side_point
    use atrito_build_context, only: build_context_t, block_t, BLOCK_SIDES
-   use atrito_coincidence, only: match_points
    use atrito_deck, only: deck_t, card_t, token_t, token_text, keyword_name, line_item
    use atrito_diagnostics, only: report_error, report_warning
    use atrito_items, only: option_text
@@ -12,11 +11,11 @@ module atrito_block_joints
    use atrito_kinds, only: ip, lp, wp
    use atrito_references, only: report_unknown
    use atrito_sets, only: find_set, members_of
-   use atrito_sorting, only: each_once, first_at_least
+   use atrito_sorting, only: each_once, first_at_least, sorted_places, order_key
    use atrito_strings, only: same_name, to_text
    implicit none (type, external)
    private
-   public :: share_nodes, side_nodes
+   public :: match_points, share_nodes, side_nodes
 
    !> Nodes nearer than this part of the shortest element edge coincide.
    real(wp), parameter :: MERGE_TOLERANCE = 1.0e-6_wp
@@ -206,8 +205,7 @@ contains
       integer(ip) :: i
 
       associate (n => size(grid, kind=ip), width => size(grid, 1, kind=ip), height => size(grid, 2, kind=ip))
-         outline = [(i, i=1, width), (i, i=n - width + 1, n), &
-                    (1 + i*width, i=1, height - 2), ((i + 1)*width, i=1, height - 2)]
+         outline = [(i, i=1, width), (i, i=n - width + 1, n), (1 + i*width, i=1, height - 2), ((i + 1)*width, i=1, height - 2)]
       end associate
    end function outline_of
 
@@ -279,5 +277,38 @@ contains
          nodes = grid(1, :)
       end select
    end function side_nodes
+
+   !> For each of some points the one of `others` that is nearest within `reach`; 0 when there is none.
+   pure function match_points(points, others, reach) result(match)
+      real(wp), intent(in) :: points(:, :)    !< (2, n) [L]
+      real(wp), intent(in) :: others(:, :)    !< (2, m) [L]
+      real(wp), intent(in) :: reach           !< [L], >= 0
+      integer(ip) :: match(size(points, 2))
+      integer(ip), allocatable :: near(:)
+      integer(lp), allocatable :: key(:)
+      real(wp) :: low(2), high(2), least, distance
+      integer(ip) :: i, j, k, n
+
+      match = 0
+      if (size(points, 2) == 0) return
+      low = minval(points, dim=2) - reach
+      high = maxval(points, dim=2) + reach
+      near = pack([(i, i=1, size(others, 2, kind=ip))], others(1, :) >= low(1) .and. others(1, :) <= high(1) .and. &
+                  others(2, :) >= low(2) .and. others(2, :) <= high(2))
+      n = size(near, kind=ip)
+      k = merge(1_ip, 2_ip, high(1) - low(1) >= high(2) - low(2))
+      near = near(sorted_places(order_key(others(k, near))))
+      key = order_key(others(k, near))
+      do i = 1, size(points, 2, kind=ip)
+         least = reach
+         do j = first_at_least(key, order_key(points(k, i) - reach)), n
+            if (others(k, near(j)) > points(k, i) + reach) exit
+            distance = norm2(others(:, near(j)) - points(:, i))
+            if (distance > least) cycle
+            least = distance
+            match(i) = near(j)
+         end do
+      end do
+   end function match_points
 
 end module atrito_block_joints

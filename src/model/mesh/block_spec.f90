@@ -1,11 +1,10 @@
 !> What a *BLOCK says: its corners, sides that are arcs of circles, how it is divided, and its copies.
 module atrito_block_spec
-   use atrito_arcs, only: centre_arc, get_point
+   use atrito_coordinates, only: centre_arc, get_point, get_coordinate
    use atrito_block_map, only: block_map_t, map_jacobian, has_arcs
    use atrito_build_context, only: BLOCK_SIDES
    use atrito_build_elements, only: read_element_type
    use atrito_check_shapes, only: corner_jacobians
-   use atrito_coordinates, only: get_coordinate
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, is_empty_token
    use atrito_diagnostics, only: report_error
    use atrito_element_table, only: SHAPES

@@ -3,9 +3,8 @@
 !> Its nodes are made with those of *NODE, in the order of the deck, its elements with those of *ELEMENT, its surfaces with
 !> those of *SURFACE; a context keeps the block in between.
 module atrito_build_block
-   use atrito_block, only: graded_lines, block_nodes, curved_nodes
+   use atrito_block_map, only: graded_lines, block_nodes, curved_nodes, has_arcs
    use atrito_block_joints, only: share_nodes, side_nodes
-   use atrito_block_map, only: has_arcs
    use atrito_block_spec, only: block_spec_t, read_block_spec, count_nodes, copy_offset
    use atrito_build_context, only: build_context_t, block_t, BLOCK_SIDES, add_context_block, note_places, invalidate_block
    use atrito_build_nodes, only: put_node_set
@@ -14,7 +13,7 @@ module atrito_build_block
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: add_nodes, add_block, reserve_mesh, is_hollow, elements_of_square
    use atrito_model_memory, only: fits_memory
-   use atrito_number_list, only: number_list_t, add_numbers, numbers_of
+   use atrito_growth, only: number_list_t, add_numbers, numbers_of
    use atrito_sets, only: grow_set
    use atrito_strings, only: to_text
    implicit none (type, external)
@@ -180,11 +179,8 @@ contains
       real(wp), allocatable, intent(in) :: breaks(:)   !< the inner lines
       real(wp) :: t(0:order*n), lines(0:n)
 
-      if (allocated(breaks)) then
-         lines = [0.0_wp, breaks, 1.0_wp]
-      else
-         lines = graded_lines(n, grade, of_halves)
-      end if
+      if (allocated(breaks)) lines = [0.0_wp, breaks, 1.0_wp]
+      if (.not. allocated(breaks)) lines = graded_lines(n, grade, of_halves)
       t(0::order) = lines
       if (order == 2) t(1::2) = 0.5_wp*(lines(:n - 1) + lines(1:))
    end function node_lines

@@ -14,13 +14,12 @@ module atrito_build_gmsh
    use atrito_incidence, only: list_holders
    use atrito_items, only: has_option, option_word
    use atrito_kinds, only: ip, lp
-   use atrito_mesh, only: add_element, add_node, find_node, reserve_mesh
+   use atrito_mesh, only: add_element, add_node, find_node, reserve_mesh, turned_nodes, is_clockwise
    use atrito_model_memory, only: fits_memory
-   use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_growth, only: number_list_t, add_number, numbers_of
    use atrito_plane_state, only: PLANE_STRAIN, PLANE_STRESS, AXISYMMETRIC
    use atrito_sets, only: grow_set
    use atrito_strings, only: to_text
-   use atrito_turned_elements, only: turned_nodes, is_clockwise
    implicit none (type, external)
    private
    public :: read_mesh_nodes, read_mesh_elements

@@ -11,20 +11,18 @@ module atrito_build_lines
    use atrito_deck, only: card_t, token_t, token_text, line_item, is_id_token, is_empty_token, keyword_name
    use atrito_diagnostics, only: report_error, report_note
    use atrito_faces, only: add_face, drop_repeated, face_list_t
-   use atrito_growth, only: resize
+   use atrito_growth, only: resize, number_list_t, add_number, add_numbers, numbers_of
    use atrito_id_map, only: add_id, find_id
    use atrito_items, only: has_option, option_text, option_word
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: signed_area
+   use atrito_mesh, only: signed_area, turned_nodes
    use atrito_model, only: surface_t
    use atrito_name_list, only: name_list_t, add_name, find_name, has_name
-   use atrito_number_list, only: number_list_t, add_number, add_numbers, numbers_of
    use atrito_numbers, only: read_integer, NUMBER_OK
    use atrito_references, only: get_id, find_one_node, find_nodes
    use atrito_refined_members, only: face_on_side, fine_elements
    use atrito_sets, only: find_set, grow_set, members_of
    use atrito_strings, only: to_text
-   use atrito_turned_elements, only: turned_nodes
    implicit none (type, external)
    private
    public :: is_line_card, read_lines, is_line_item, turn_elements, read_curves, put_curve_surfaces, take_node_surface, add_surface

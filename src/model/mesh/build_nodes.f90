@@ -9,7 +9,7 @@ module atrito_build_nodes
    use atrito_mesh, only: add_node, find_node
    use atrito_model_memory, only: fits_memory, most_nodes
    use atrito_motion, only: moved
-   use atrito_number_list, only: number_list_t, add_numbers, numbers_of
+   use atrito_growth, only: number_list_t, add_numbers, numbers_of
    use atrito_plain_numbers, only: read_plain_nodes, SLICE
    use atrito_references, only: get_id, find_nodes, find_one_node
    use atrito_ranges, only: ranges_t, add_to_ranges => add_numbers
@@ -67,15 +67,12 @@ contains
       integer(ip), intent(in) :: id
       real(wp), intent(in) :: x(2)                     !< as it stands there [L]
       integer(ip), intent(in) :: token                 !< of the deck: its number
+      real(wp) :: place(2)
       logical :: ok
 
-      associate (scope => context%deck%tokens(token)%scope)
-         if (scope > 0) then
-            call place_node(context, id, moved(context%motions(scope), x), token, ok, 'NODE')
-         else
-            call place_node(context, id, x, token, ok, 'NODE')
-         end if
-      end associate
+      place = x
+      if (context%deck%tokens(token)%scope > 0) place = moved(context%motions(context%deck%tokens(token)%scope), x)
+      call place_node(context, id, place, token, ok, 'NODE')
    end subroutine place_moved_node
 
    !> A line of *NODE that is not just plain numbers: number, x, y[, z].
@@ -250,8 +247,7 @@ contains
                                          expected='positive node numbers, at most '//to_text(most_nodes())//' nodes', &
                                          keyword='NFILL')
       end associate
-      if (ok) ok = fits_memory(context%deck%tokens(line%first_token), context, int(n - 1, lp)*size(from, kind=lp), 0_lp, &
-                               'NFILL')
+      if (ok) ok = fits_memory(context%deck%tokens(line%first_token), context, int(n - 1, lp)*size(from, kind=lp), 0_lp, 'NFILL')
    end subroutine read_nfill_line
 
    !> Nodes between each two, equally spaced, numbered by `step` from the first of the two.

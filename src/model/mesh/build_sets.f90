@@ -8,13 +8,12 @@ module atrito_build_sets
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, is_id_token, is_empty_token, keyword_name, &
                           scope_shift, scope_text, model_number
    use atrito_diagnostics, only: report_error, report_note
-   use atrito_growth, only: make_room
+   use atrito_growth, only: make_room, number_list_t, add_number, numbers_of
    use atrito_id_map, only: id_map_t, find_id, is_whole_sequence
    use atrito_items, only: get_integer, has_option, option_text, option_integer
    use atrito_kinds, only: ip, lp, wp
    use atrito_model_memory, only: fits_memory
    use atrito_motion, only: motion_t, read_shift, read_rotation, moved
-   use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_numbers, only: read_integer, NUMBER_OK
    use atrito_places, only: read_places
    use atrito_ranges, only: ranges_t, add_range, add_numbers, add_ranges, count_numbers

@@ -1,6 +1,6 @@
 !> *SURFACE, and the surfaces that a *BLOCK has by itself.
 module atrito_build_surfaces
-   use atrito_arcs, only: centre_arc, get_point
+   use atrito_coordinates, only: centre_arc, get_point
    use atrito_build_lines, only: put_curve_surfaces, take_node_surface, add_surface
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, is_id_token, keyword_name
    use atrito_diagnostics, only: report_error
@@ -15,7 +15,7 @@ module atrito_build_surfaces
    use atrito_model, only: surface_t, SURFACE_SEGMENTS
    use atrito_motion, only: moved
    use atrito_name_list, only: add_name, find_name, has_name
-   use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_growth, only: number_list_t, add_number, numbers_of
    use atrito_numbers, only: read_integer
    use atrito_ranges, only: numbers_among
    use atrito_references, only: find_elements, check_faces

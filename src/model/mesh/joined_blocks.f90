@@ -4,7 +4,7 @@ module atrito_joined_blocks
    use atrito_id_map, only: id_map_t, add_id, find_id
    use atrito_kinds, only: ip, lp, wp
    use atrito_name_list, only: name_list_t, add_name, find_name
-   use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_growth, only: number_list_t, add_number, numbers_of
    use atrito_sorting, only: each_once
    implicit none (type, external)
    private

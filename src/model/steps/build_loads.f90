@@ -12,7 +12,7 @@ module atrito_build_loads
    use atrito_load_lists, only: condition_t, condition_list_t, add_condition, add_part, dof_slot, nodal_values_of, &
                                 element_loads_of, SLOTS
    use atrito_model, only: nodal_values_t, LOAD_BODY, LOAD_HYDROSTATIC, LOAD_LINEAR, LOAD_TRACTION, SURFACE_ELEMENTS
-   use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_growth, only: number_list_t, add_number, numbers_of
    use atrito_numbers, only: read_integer
    use atrito_plane_state, only: STATES
    use atrito_propagation, only: is_of_step, removes_all, propagate, list_inherited, apply_condition, set_to_zero, warn_of_replaced

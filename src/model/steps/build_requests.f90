@@ -7,7 +7,7 @@ module atrito_build_requests
    use atrito_build_cuts, only: read_cut_card
    use atrito_build_paths, only: read_path_card
    use atrito_propagation, only: is_of_step
-   use atrito_foreign_words, only: variable_of_component
+   use atrito_foreign_keywords, only: variable_of_component
    use atrito_items, only: find_option, has_option, option_integer, option_real, option_text, option_word, refuse_option
    use atrito_kinds, only: ip, wp
    use atrito_model, only: requested_t, requests_t, step_t
@@ -233,20 +233,18 @@ contains
       logical, allocatable :: chosen(:)
       logical :: ok, with_principal
 
-      associate (model => context%model)
-         if (index(keyword_name(card), 'NODE') == 1) then
-            call choose_members(card, 'NSET', model%mesh%n_nodes, context, chosen, ok)
-            if (ok .and. asks_for(context%deck, card, 'U')) call ask_for(chosen, requested%nodes, requested%node_u)
-            if (ok .and. asks_for(context%deck, card, 'RF')) call ask_for(chosen, requested%reactions, requested%node_rf)
-         else
-            call choose_members(card, 'ELSET', model%mesh%n_elements, context, chosen, ok)
-            with_principal = keyword_name(card) == 'EL PRINT' .and. asks_for(context%deck, card, 'SP')
-            requested%principal = requested%principal .or. with_principal
-            if (ok .and. (with_principal .or. asks_for(context%deck, card, 'S'))) then
-               call ask_for(chosen, requested%stress, requested%element_s)
-            end if
+      if (index(keyword_name(card), 'NODE') == 1) then
+         call choose_members(card, 'NSET', context%model%mesh%n_nodes, context, chosen, ok)
+         if (ok .and. asks_for(context%deck, card, 'U')) call ask_for(chosen, requested%nodes, requested%node_u)
+         if (ok .and. asks_for(context%deck, card, 'RF')) call ask_for(chosen, requested%reactions, requested%node_rf)
+      else
+         call choose_members(card, 'ELSET', context%model%mesh%n_elements, context, chosen, ok)
+         with_principal = keyword_name(card) == 'EL PRINT' .and. asks_for(context%deck, card, 'SP')
+         requested%principal = requested%principal .or. with_principal
+         if (ok .and. (with_principal .or. asks_for(context%deck, card, 'S'))) then
+            call ask_for(chosen, requested%stress, requested%element_s)
          end if
-      end associate
+      end if
    end subroutine read_request_card
 
    !> *EL PRINT, POSITION=AVERAGED AT NODES: the nodes of the elements.
@@ -278,11 +276,8 @@ contains
       logical, allocatable, intent(inout) :: mask(:)
 
       wanted = .true.
-      if (allocated(mask)) then
-         mask = mask .or. chosen
-      else
-         mask = chosen
-      end if
+      if (.not. allocated(mask)) mask = chosen
+      mask = mask .or. chosen
    end subroutine ask_for
 
    !> Reports every card that asks for fields or restart files: for a build that cannot write them.

@@ -73,11 +73,8 @@ contains
       if (.not. allocated(step%heating)) return
       now%heating = step%heating
       if (share == 1.0_wp) return
-      if (allocated(step%heating_from)) then
-         now%heating = between(step%heating_from, step%heating, share)
-      else
-         now%heating = share*step%heating
-      end if
+      now%heating = share*step%heating
+      if (allocated(step%heating_from)) now%heating = between(step%heating_from, step%heating, share)
    end subroutine act_at
 
    pure elemental real(wp) function between(from, to, share)

@@ -1,25 +1,24 @@
 !> What a deck means: one model_t, all that the solver and the writers need, no deck text.
 module atrito_model
-   use atrito_controls, only: controls_t
    use atrito_bilateral_rows, only: bilateral_rows_t
+   use atrito_controls, only: controls_t
    use atrito_cross_section, only: cross_section_t
    use atrito_element_places, only: place_t
-   use atrito_kinds, only: ip, wp
-   use atrito_orthotropy, only: SPATIAL
-   use atrito_plane_state, only: FORMULATION_STANDARD, FORMULATION_BBAR
-   use atrito_points, only: contact_points_t
-   use atrito_patched_text, only: named_text_t
-   use atrito_provenance, only: provenance_t
-   use atrito_strings, only: string_t
-   use atrito_mesh, only: mesh_t
-   use atrito_sets, only: set_list_t
    use atrito_faces, only: face_list_t
-   use atrito_units, only: units_t
    use atrito_friction_law, only: FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_POINTS, KERNEL_LINE
+   use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: mesh_t
+   use atrito_orthotropy, only: SPATIAL, inverse_of, turned_compliance, turned_stiffness
+   use atrito_patched_text, only: named_text_t
+   use atrito_plane_state, only: FORMULATION_STANDARD, FORMULATION_BBAR, elastic_t
+   use atrito_points, only: contact_points_t
+   use atrito_sets, only: set_list_t
+   use atrito_strings, only: string_t
+   use atrito_units, only: units_t
    implicit none (type, external)
    private
-   public :: model_t, step_t, material_t, section_t, surface_t, interaction_t, pair_t, nodal_values_t, element_load_t
-   public :: rigid_body_t, instance_t, source_t, cut_t, observed_line_t, path_t
+   public :: model_t, step_t, material_t, section_t, surface_t, interaction_t, pair_t, nodal_values_t, element_load_t, elasticity_of
+   public :: provenance_t, rigid_body_t, instance_t, source_t, cut_t, observed_line_t, path_t
    public :: amplitude_t, increments_t, frequencies_t, spring_t, tie_t, requests_t, requested_t, parameter_value_t
    public :: SURFACE_ELEMENTS, SURFACE_SEGMENTS, FORMULATION_STANDARD, FORMULATION_BBAR, FORMULATION_NAME
    public :: FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_POINTS, KERNEL_LINE
@@ -34,6 +33,14 @@ module atrito_model
    character(len=8), parameter :: FRICTION_NAME(0:2) = ['none    ', 'LOCAL   ', 'NONLOCAL']
    character(len=6), parameter :: KERNEL_NAME(2) = ['POINTS', 'LINE  ']
    integer(ip), parameter :: LOAD_PRESSURE = 1, LOAD_BODY = 2, LOAD_TRACTION = 3, LOAD_HYDROSTATIC = 4, LOAD_LINEAR = 5
+
+   !> Where results come from, in words: what the head of every table has beside the deck's name and heading. A component that is not
+   !> allocated has no line there.
+   type :: provenance_t
+      character(len=:), allocatable :: parameters    !< of the deck with their values: 'nu = 0.3, q = 10 (--set)'
+      character(len=:), allocatable :: options       !< of the command line that change results or tables: '--refine 1'
+      character(len=:), allocatable :: digest        !< of the deck as it was run, 16 hexadecimal digits
+   end type provenance_t
 
    !> *MATERIAL: its elasticity, density and expansion.
    type :: material_t
@@ -338,5 +345,18 @@ contains
       is_due = ends_step
       if (every > 0) is_due = is_due .or. mod(increment, every) == 0
    end function is_due
+
+   !> The elasticity of a section: that of its material, turned by the orientation of the section where it is orthotropic.
+   pure type(elastic_t) function elasticity_of(section, material) result(elastic)
+      type(section_t), intent(in) :: section     !< thickness, formulation and axis are used
+      type(material_t), intent(in) :: material   !< of the section
+
+      elastic = elastic_t(material%young, material%poisson, section%thickness, material%density, section%formulation, &
+                          material%expansion)
+      if (.not. material%is_orthotropic) return
+      elastic%is_orthotropic = .true.
+      elastic%stiffness = turned_stiffness(material%stiffness, section%axis)
+      elastic%compliance = turned_compliance(inverse_of(material%stiffness), section%axis)
+   end function elasticity_of
 
 end module atrito_model

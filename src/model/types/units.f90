@@ -87,4 +87,6 @@ contains
       end do
    end function in_units
 
+
+
 end module atrito_units

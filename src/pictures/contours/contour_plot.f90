@@ -192,8 +192,7 @@ contains
                '   # of the displacements, also of the raster: another one needs a run with --plot-scale'//LF// &
                'heading = '//quoted(drawing%heading))
       call put_layout(plots, layout)
-      if (field%contour%of_elements) title = title//', share of each element, together '// &
-                                             percent_of(drawing%results)
+      if (field%contour%of_elements) title = title//', share of each element, together '//percent_of(drawing%results)
       call put(plots, 'set label 1 heading."\n'//title//'; '//displacement_text(drawing)// &
                '" at screen 0.5, screen up(height - 20) center noenhanced')
       call put_bar(plots, layout, field, bar)
@@ -206,11 +205,8 @@ contains
       type(results_t), intent(in) :: results
       character(len=:), allocatable :: text
 
-      if (results%error_bound%exists) then
-         text = 'at most '//to_text(results%error_bound%percent, 3)//' %'
-      else
-         text = to_text(results%error_estimate, 3)//' %'
-      end if
+      text = to_text(results%error_estimate, 3)//' %'
+      if (results%error_bound%exists) text = 'at most '//to_text(results%error_bound%percent, 3)//' %'
    end function percent_of
 
    !> Colours, range and marks of the bar.
