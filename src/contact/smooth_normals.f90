@@ -9,7 +9,7 @@
 !> a parabola turning along itself and a chord at its ends alone. Turns below NO_TURN are rounding of coordinates, and,
 !> where the nodes are known to g only, those below 12 g/c: they fade out by 3 x^2 - 2 x^3 (`shown`), since a step would
 !> make neighbours with nearly the same turn differ. A parabola through such nodes may turn more: where all nodes of a face and of
-!> those beside it lie within 3 g of a line it is straight (fade_straight).
+!> those beside it lie within 3 g of a line it is straight (doubt_digits).
 !>
 !> `bend` is the curvature of a chord with its sign, > 0 where convex, and not of its polygon but of the curve through
 !> its nodes: at a joint the tangent of a circle through three nodes makes the angles turn c_1/(c_1 + c_2) and turn
@@ -90,12 +90,7 @@ contains
       call turn_outer_ends(curvature, ends)
       turn = turn + joints/max(n_joints, 1_ip)
       joints = 0.0_wp                               ! of the turns, what is rounding
-      if (present(grain)) then
-         if (grain > 0.0_wp .and. all(1 > LATTICE*grain*curvature)) then
-            joints = DIGITS_TURN*grain*curvature
-            call fade_straight(mesh, faces, beside, OFF_LINE*grain, turn)
-         end if
-      end if
+      if (present(grain)) call doubt_digits(mesh, faces, beside, curvature, grain, turn, joints)
       curvature = turn*shown(turn, joints)*curvature
 
    contains
@@ -137,18 +132,22 @@ contains
 
    end subroutine smooth_surface
 
-   !> Of faces all of whose nodes, and those of the faces beside them, lie within the rounding of the line through the outermost
-   !> two, the turn is none; from there to twice as far off it comes back.
-   pure subroutine fade_straight(mesh, faces, beside, rounding, turn)
+   !> What the last digits of the nodes make of turns. Of faces all of whose nodes, and those of the faces beside them, lie within
+   !> OFF_LINE of the line through the outermost two, the turn is none; from there to twice as far off it comes back.
+   pure subroutine doubt_digits(mesh, faces, beside, per_length, grain, turn, rounding)
       type(mesh_t), intent(in) :: mesh              !< nodes of the faces
       type(face_list_t), intent(in) :: faces        !< of one surface
       integer(ip), intent(in) :: beside(:, :)       !< (2, faces) those before and behind without a corner; 0: none
-      real(wp), intent(in) :: rounding              !< of the distance of a node from the line [L]
+      real(wp), intent(in) :: per_length(:)         !< (faces) [1/L]
+      real(wp), intent(in) :: grain                 !< to which the nodes are known [L]
       real(wp), intent(inout) :: turn(:)            !< (faces) [rad]
+      real(wp), intent(inout) :: rounding(:)        !< (faces) of the turns [rad]; kept where the nodes were not rounded
       integer(ip), allocatable :: nodes(:)
       integer(ip) :: ends(2), i, j, k
       real(wp) :: d(2), off
 
+      if (.not. (grain > 0.0_wp .and. all(1 > LATTICE*grain*per_length))) return
+      rounding = DIGITS_TURN*grain*per_length
       do i = 1, faces%n
          nodes = face_nodes(mesh, faces%element(i), faces%face(i))
          ends = nodes(:2)
@@ -160,12 +159,12 @@ contains
             if (k == 2) ends(k) = mesh%nodes(face_end(mesh, faces%element(j), faces%face(j)), faces%element(j))
          end do
          d = mesh%x(:, ends(2)) - mesh%x(:, ends(1))
-         if (.not. norm2(d) > rounding) cycle       ! a ring
+         if (.not. norm2(d) > grain) cycle          ! a ring
          off = maxval([(abs((mesh%x(1, nodes(k)) - mesh%x(1, ends(1)))*d(2) - (mesh%x(2, nodes(k)) - mesh%x(2, ends(1)))*d(1)), &
                         k=1, size(nodes, kind=ip))])/norm2(d)
-         turn(i) = turn(i)*smooth_step(off/rounding - 1)
+         turn(i) = turn(i)*smooth_step(off/(OFF_LINE*grain) - 1)
       end do
-   end subroutine fade_straight
+   end subroutine doubt_digits
 
    !> The angle from one normal to the next [rad], > 0: convex.
    pure real(wp) function turn_between(a, b) result(turn)
