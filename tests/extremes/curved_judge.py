@@ -289,7 +289,9 @@ def check_pair(scene, tables, forces, number, pair, verdict):
         at = f' at node {body.first + node + 1}'
         if is_by_node:
             verdict.test('pulling force', normal, angle*largest + small, at)
-            verdict.test('tangential force', tangential, (pair.nu + angle)*abs(normal) + small, at)
+            # within the cone of friction about a normal that may be off by `angle`
+            leans = math.tan(min(math.atan(pair.nu) + angle, 1.5))
+            verdict.test('tangential force', tangential, leans*abs(normal) + small, at)
         pushed -= normal
     total = (field['weight']*p).sum()
     if not held & set(body.mesh.side_nodes(pair.slave[1])):
