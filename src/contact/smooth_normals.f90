@@ -8,7 +8,8 @@
 !>
 !> a parabola turning along itself and a chord at its ends alone. Turns below NO_TURN are rounding of coordinates, and,
 !> where the nodes are known to g only, those below 12 g/c: they fade out by 3 x^2 - 2 x^3 (`shown`), since a step would
-!> make neighbours with nearly the same turn differ.
+!> make neighbours with nearly the same turn differ. A parabola through such nodes may turn more: where all nodes of a face and of
+!> those beside it lie within 3 g of a line it is straight (doubt_digits).
 !>
 !> `bend` is the curvature of a chord with its sign, > 0 where convex, and not of its polygon but of the curve through
 !> its nodes: at a joint the tangent of a circle through three nodes makes the angles turn c_1/(c_1 + c_2) and turn
@@ -20,7 +21,7 @@ module atrito_smooth_normals
    use atrito_faces, only: face_list_t
    use atrito_id_map, only: id_map_t, add_id, find_id
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: mesh_t, face_nodes
+   use atrito_mesh, only: mesh_t, face_end, face_nodes
    use atrito_slave_faces, only: sine, CORNER
    implicit none (type, external)
    private
@@ -30,6 +31,7 @@ module atrito_smooth_normals
    real(wp), parameter :: NO_TURN = 1.0e-6_wp, A_TURN = 1.0e-4_wp
    !> What the last digits of its nodes may turn the normal by along a face: in grains over its length.
    real(wp), parameter :: DIGITS_TURN = 12.0_wp
+   real(wp), parameter :: OFF_LINE = 3.0_wp         !< what they may move a node off the line through two others by: in grains
    real(wp), parameter :: LATTICE = 10.0_wp         !< length of a face in grains, of nodes that were not rounded
 
 contains
@@ -88,7 +90,7 @@ contains
       call turn_outer_ends(curvature, ends)
       turn = turn + joints/max(n_joints, 1_ip)
       joints = 0.0_wp                               ! of the turns, what is rounding
-      if (present(grain)) joints = merge(DIGITS_TURN*grain*curvature, 0.0_wp, all(1 > LATTICE*grain*curvature))
+      if (present(grain)) call doubt_digits(mesh, faces, beside, curvature, grain, turn, joints)
       curvature = turn*shown(turn, joints)*curvature
 
    contains
@@ -130,6 +132,40 @@ contains
 
    end subroutine smooth_surface
 
+   !> What the last digits of the nodes make of turns. Of faces all of whose nodes, and those of the faces beside them, lie within
+   !> OFF_LINE of the line through the outermost two, the turn is none; from there to twice as far off it comes back.
+   pure subroutine doubt_digits(mesh, faces, beside, per_length, grain, turn, rounding)
+      type(mesh_t), intent(in) :: mesh              !< nodes of the faces
+      type(face_list_t), intent(in) :: faces        !< of one surface
+      integer(ip), intent(in) :: beside(:, :)       !< (2, faces) those before and behind without a corner; 0: none
+      real(wp), intent(in) :: per_length(:)         !< (faces) [1/L]
+      real(wp), intent(in) :: grain                 !< to which the nodes are known [L]
+      real(wp), intent(inout) :: turn(:)            !< (faces) [rad]
+      real(wp), intent(inout) :: rounding(:)        !< (faces) of the turns [rad]; kept where the nodes were not rounded
+      integer(ip), allocatable :: nodes(:)
+      integer(ip) :: ends(2), i, j, k
+      real(wp) :: d(2), off
+
+      if (.not. (grain > 0.0_wp .and. all(1 > LATTICE*grain*per_length))) return
+      rounding = DIGITS_TURN*grain*per_length
+      do i = 1, faces%n
+         nodes = face_nodes(mesh, faces%element(i), faces%face(i))
+         ends = nodes(:2)
+         do k = 1, 2
+            j = beside(k, i)
+            if (j == 0) cycle
+            nodes = [nodes, face_nodes(mesh, faces%element(j), faces%face(j))]
+            ends(k) = mesh%nodes(faces%face(j), faces%element(j))
+            if (k == 2) ends(k) = mesh%nodes(face_end(mesh, faces%element(j), faces%face(j)), faces%element(j))
+         end do
+         d = mesh%x(:, ends(2)) - mesh%x(:, ends(1))
+         if (.not. norm2(d) > grain) cycle          ! a ring
+         off = maxval([(abs((mesh%x(1, nodes(k)) - mesh%x(1, ends(1)))*d(2) - (mesh%x(2, nodes(k)) - mesh%x(2, ends(1)))*d(1)), &
+                        k=1, size(nodes, kind=ip))])/norm2(d)
+         turn(i) = turn(i)*smooth_step(off/(OFF_LINE*grain) - 1)
+      end do
+   end subroutine doubt_digits
+
    !> The angle from one normal to the next [rad], > 0: convex.
    pure real(wp) function turn_between(a, b) result(turn)
       real(wp), intent(in) :: a(2), b(2)            !< unit vectors
@@ -150,12 +186,19 @@ contains
    elemental real(wp) function shown(turn, rounding)
       real(wp), intent(in) :: turn
       real(wp), intent(in) :: rounding              !< that is known to be there [rad]
-      real(wp) :: x, none
+      real(wp) :: none
 
       none = max(NO_TURN, rounding)
-      x = min(max((turn - none)/(max(A_TURN - NO_TURN, none)), 0.0_wp), 1.0_wp)
-      shown = x**2*(3 - 2*x)
+      shown = smooth_step((turn - none)/(max(A_TURN - NO_TURN, none)))
    end function shown
+
+   !> 0 below 0, 1 above 1, and 3 x^2 - 2 x^3 between.
+   elemental real(wp) function smooth_step(x)
+      real(wp), intent(in) :: x
+
+      smooth_step = min(max(x, 0.0_wp), 1.0_wp)
+      smooth_step = smooth_step**2*(3 - 2*smooth_step)
+   end function smooth_step
 
    !> The direction in which two surfaces touch, out of the slave: of their normals the mean, in which the master's has the share
    !> that share_of_master tells.

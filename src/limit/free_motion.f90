@@ -41,7 +41,7 @@ contains
             text = body_names(fem, bodies)//' are free to move under their loads: '//each_motion()//'; ' &
                    //work_text(mechanism)//joint_text(pairs, mechanism)
          end if
-         text = text//'; '//support_text(fem, bodies, held)
+         text = text//'; '//support_text(fem, bodies, held, rows)
       end associate
 
    contains
@@ -239,13 +239,16 @@ contains
       text = to_text(force, DIGITS)//' [F'//trim(merge(' L]', ']  ', turns))
    end function amount
 
-   !> Supports that the bodies have, though they leave them this motion.
-   pure function support_text(fem, bodies, held) result(text)
+   !> Supports that the bodies have, though they leave them this motion; rows of one body are those along a direction of their own,
+   !> springs to the ground, and equations.
+   pure function support_text(fem, bodies, held, rows) result(text)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: bodies(:)
       logical, intent(in) :: held(:, :)        !< (2, n_nodes)
+      type(contact_rows_t), intent(in) :: rows
       character(len=:), allocatable :: text
       integer(ip) :: b, i, dof, n, first, first_dof
+      integer(ip), allocatable :: of_one(:)    ! bilateral rows of one of the bodies alone
 
       n = 0
       first = 0
@@ -267,8 +270,16 @@ contains
             end do
          end associate
       end do
-      if (n == 0) then
+      of_one = pack([(i, i=rows%n - rows%n_bilateral + 1, rows%n)], &
+                    [(any([(all(fem%bodies%of_node(rows%node(rows%first(i):rows%first(i + 1) - 1)) == bodies(b)), &
+                            b=1, size(bodies))]), i=rows%n - rows%n_bilateral + 1, rows%n)])
+      if (n == 0 .and. size(of_one) == 0) then
          text = trim(merge('it has no support   ', 'they have no support', size(bodies) == 1))
+      else if (n == 0) then
+         text = trim(merge('its  ', 'their', size(bodies) == 1))//' supports along directions of their own, springs or equations ' &
+                //'(node '//to_text(fem%mesh%node_id(rows%node(rows%first(of_one(1)))))
+         if (size(of_one) > 1) text = text//' and '//to_text(size(of_one) - 1)//' more'
+         text = text//') do not prevent that'
       else
          text = trim(merge('its supports (node  ', 'their supports (node', size(bodies) == 1))//' '//to_text(first)//' ' &
                 //trim(merge('against rotation', 'along x'//to_text(first_dof)//repeat(' ', 8), first_dof == 3))

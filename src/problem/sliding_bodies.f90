@@ -24,6 +24,7 @@ module atrito_sliding_bodies
    real(wp), parameter :: EXACT = 1.0e-13_wp        !< grain over extent of a deck that is not rounded to digits
 
    real(wp), parameter :: NONE_HELD = 1.0e-7_wp     !< what a support sees of a motion that it leaves
+   real(wp), parameter :: ON_LINE = 1.0e-14_wp      !< of the rotation that it leaves: what a support on the line sees of it
    real(wp), parameter :: ALL_BUT = 1.0e-3_wp       !< distance from a centre, of the size of a body
 
 contains
@@ -339,7 +340,7 @@ contains
          if (size(rows) < 2 .or. size(left) == 0) return
          ! the combination that turns most
          turn = norm2(left(3, :))
-         if (.not. turn > ALL_BUT .or. maxval(abs(matmul(left(3, :), seen))) <= EXACT) return
+         if (.not. turn > ALL_BUT .or. maxval(abs(matmul(left(3, :), seen))) <= ON_LINE*turn) return
          associate (node => bilateral%node(bilateral%first(rows)))
             own_ends = node(1)
             do k = 1, 2

@@ -108,14 +108,16 @@ def forces_upon(scene, tables):
 # -- exact normals of what is closed --------------------------------------------------------------------------------------------
 
 
-def exact_normal(scene, pair, samples, x):
-    """Of the slave at x, or against a straight master's; whether either side is straight there."""
+def exact_normal(scene, pair, samples, x, faces=()):
+    """Of the slave at x, or against a straight master's; whether either side is straight there. `faces`: middles of those of a node,
+    which may face the master where the node itself looks past it."""
     slave = samples[0]
     piece = min((curve for curve, _ in slave.pieces.values()), key=lambda curve: np.linalg.norm(curve.project(x) - x))
     n = piece.normal(x)
     if isinstance(piece, Line):
         return n, True
-    straight = [curve for curve, _ in samples[1].pieces.values() if isinstance(curve, Line) and -curve.normal(x) @ n > 0.2]
+    straight = [curve for curve, _ in samples[1].pieces.values() if isinstance(curve, Line)
+                and max(-curve.normal(x) @ piece.normal(at) for at in (x, *faces)) > 0.2]
     if straight:
         nearest = min(straight, key=lambda curve: abs((curve.a - x) @ curve.normal(x)))
         return -nearest.normal(x), True
@@ -270,15 +272,16 @@ def check_pair(scene, tables, forces, number, pair, verdict):
                 held |= set(body.mesh.side_nodes(side[1]))
     samples = scene.samples(pair.slave), scene.samples(pair.master)
     known = resolution(scene, pair)
-    ends = [body.mesh.x[body.mesh.face_nodes(*face)[:2]] for face in body.mesh.side(pair.slave[1])]
-    spacing = np.median([np.linalg.norm(b - a) for a, b in ends])
+    faces = [body.mesh.face_nodes(*face) for face in body.mesh.side(pair.slave[1])]
+    spacing = np.median([np.linalg.norm(np.subtract(*body.mesh.x[ends[:2]])) for ends in faces])
     nodes = [node for node in body.mesh.side_nodes(pair.slave[1]) if node not in held]
     largest = np.abs(c[nodes]).max(initial=0.0)
     # over the nodes of a quadratic slave MORTAR spreads the force of a point: only sums have a sign there
     is_by_node = pair.quadrature == 'NODAL' or pair.master[0] is None or len(body.mesh.cells[0]) <= 4
     pushed = unknown = 0.0
     for node in nodes:
-        n, is_straight = exact_normal(scene, pair, samples, body.mesh.x[node])
+        middles = [body.mesh.x[ends[:2]].mean(axis=0) for ends in faces if node in ends]
+        n, is_straight = exact_normal(scene, pair, samples, body.mesh.x[node], middles)
         unknown = max(unknown, 0.0 if is_straight else known)
         angle = 1e-6 + 8*scene.grain/spacing + (0.0 if is_straight else known)
         normal, tangential = c[node] @ n, abs(c[node] @ np.array([-n[1], n[0]]))
@@ -286,7 +289,9 @@ def check_pair(scene, tables, forces, number, pair, verdict):
         at = f' at node {body.first + node + 1}'
         if is_by_node:
             verdict.test('pulling force', normal, angle*largest + small, at)
-            verdict.test('tangential force', tangential, (pair.nu + angle)*abs(normal) + small, at)
+            # within the cone of friction about a normal that may be off by `angle`
+            leans = math.tan(min(math.atan(pair.nu) + angle, 1.5))
+            verdict.test('tangential force', tangential, leans*abs(normal) + small, at)
         pushed -= normal
     total = (field['weight']*p).sum()
     if not held & set(body.mesh.side_nodes(pair.slave[1])):

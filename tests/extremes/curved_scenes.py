@@ -787,6 +787,8 @@ def slider(m):
     if how != 'none':
         # round the middle, away from the sides
         nodes = [i for i in range(len(mesh.x)) if 0.2*height < mesh.x[i, 1] < 0.8*height and abs(mesh.x[i, 0]) < 0.8*width]
+        if len(nodes) < 2:  # a coarse mesh may have none there, and a moment takes two
+            nodes = list(np.argsort(((mesh.x - [0.0, 0.5*height])**2).sum(axis=1))[:3])
         m.load(body, nodes, force, moment, (0.0, 0.0) if how in ('inclined', 'along') else (0.0, 0.5*height))
 
 

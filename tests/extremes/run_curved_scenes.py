@@ -80,8 +80,9 @@ def give_verdict(settings, outcome, scene, path, base):
         outcome.word = 'ambiguous' if balanced == 'unsure' else 'open' if has_friction and balanced == 'yes' else 'unsolved'
         outcome.reasons = [f'balanced: {balanced}; ' + message(said)]
     else:
-        # faces of a slave that are longer than its master are refused
-        outcome.word = 'ambiguous' if outcome.code == 2 and 'no face of the slave finds the master' in said else 'wrong'
+        # faces of a slave that are longer than its master are refused, and elements that four digits fold
+        refused = 'no face of the slave finds the master' in said or scene.digits == 4 and 'folds over' in said
+        outcome.word = 'ambiguous' if outcome.code == 2 and refused else 'wrong'
         outcome.reasons = ['takes too long' if outcome.code is None else message(said)]
 
 

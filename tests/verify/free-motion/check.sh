@@ -18,6 +18,9 @@ says pushed pushed.err 'it slides (CRATE-BOTTOM on FLOOR), the load drives it wi
 sed 's/^\*STEP/*BOUNDARY\n25, 1\n*STEP/' "$here/block.inp" >guided.inp
 run 4 guided.inp guided --set top=-1
 says guided guided.err 'its supports (node 25 along x1) do not prevent that'
+sed 's/^\*STEP/*NSET, NSET=ASLANT\n25\n*TRANSFORM, NSET=ASLANT\n0.8, 0.6, 0., -0.6, 0.8, 0.\n*BOUNDARY\nASLANT, 1\n*STEP/' "$here/block.inp" >aslant.inp
+run 4 aslant.inp aslant --set top=-1
+says aslant aslant.err 'its supports along directions of their own, springs or equations (node 25) do not prevent that'
 sed 's/^\*CONTACT PAIR/*FRICTION\n5.\n*CONTACT PAIR/' "$here/block.inp" >tip.inp
 run 4 tip.inp tipped --set right=0.6
 # about the corner at (1, 0), node 5; 0.6 at height 1 against the weight of 1 at 0.5
