@@ -124,6 +124,7 @@ contains
       if (.not. is_ok(status)) return
       tau = solution%tau
       holds = found .and. .not. multipliers%changed
+      multipliers%changed = .true.               ! e is that of x
       outer = 0
       do
          outer = outer + 1

@@ -277,10 +277,13 @@ contains
       integer(ip) :: newton
       logical :: stays
 
+      ! e goes on from step to step where states stand: of motions far larger than the strains x has lost digits that e has
+      de = 0.0_wp
+      if (holds) call set_held_forces(system, bounds, multipliers, state)
+      if (.not. holds .and. multipliers%changed) call set_forces(system, bounds, multipliers, state)
+      if (.not. (holds .or. multipliers%changed)) call set_forces(system, bounds, multipliers, state, de)
       multipliers%settled = .false.
       multipliers%changed = .false.
-      if (holds) call set_held_forces(system, bounds, multipliers, state)
-      if (.not. holds) call set_forces(system, bounds, multipliers, state)
       do newton = 1, MOST_NEWTON
          ! minus the gradient, the matrix of the present states, Newton's direction
          call residual_of(system, multipliers, state%q, residual)
