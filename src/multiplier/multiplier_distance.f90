@@ -12,7 +12,7 @@
 !> pair bore in the increment before (NO_FORCE_AFTER), is no force to compare with: a pair without any other has none.
 module atrito_multiplier_distance
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use atrito_bound_qp, only: bound_qp_t, box_state_t, AT_LOWER, FREE
+   use atrito_bound_qp, only: box_state_t, AT_LOWER, FREE
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_system, only: contact_system_t
    use atrito_kinds, only: ip, wp, HUGE_REAL
@@ -102,21 +102,23 @@ contains
    !> forces of its pair are round-off of those on their bodies.
    !>
    !> Rows of contact alone: a bilateral row may have a force of any size and sign.
-   subroutine clear_round_off(system, shape, multipliers, state)
+   subroutine clear_round_off(system, line, multipliers, state)
       class(contact_system_t), intent(in) :: system !< A, B, loads, flexibilities
-      type(bound_qp_t), intent(in) :: shape   !< which rows are normal
+      type(contact_line_t), intent(in) :: line !< which rows are normal, and which of one point
       type(multiplier_t), intent(in) :: multipliers !< x, e, q_o, a_o and the sizes of the step
       type(box_state_t), intent(inout) :: state !< states of the m unknowns, q, a, r
       real(wp) :: of_body(system%n_bodies), least(multipliers%n_pairs), largest(multipliers%n_pairs)
       logical :: none(size(state%q))
+      integer(ip) :: normal(size(state%q)), i
 
       call measure_bodies(system, state%q, of_body)
       call measure_pairs(system, multipliers, of_body, least)
       largest = largest_of_pairs(multipliers, abs(state%q))
       none = (state%q <= multipliers%noise .or. largest(multipliers%pair) <= least(multipliers%pair)) .and. &
              state%state == FREE .and. multipliers%pair <= multipliers%n_contact_pairs
-      none(shape%n_normal + 1:) = .false.
-      call keep_what_balances(system, state%q, none)
+      none(count(line%normal > 0) + 1:) = .false.
+      normal = [(merge(line%normal(line%point(i)), i, line%normal(line%point(i)) > 0), i=1, size(none, kind=ip))]
+      call keep_what_balances(system, normal, state%q, none)
       where (none)
          state%q = 0.0_wp
          state%state = AT_LOWER
@@ -125,8 +127,9 @@ contains
    end subroutine clear_round_off
 
    !> A force without which the loads on a body are out of balance is one, however small: they may be as small.
-   subroutine keep_what_balances(system, q, none)
+   subroutine keep_what_balances(system, normal, q, none)
       class(contact_system_t), intent(in) :: system
+      integer(ip), intent(in) :: normal(:)       !< (m) row of the pressure with which a force goes
       real(wp), intent(in) :: q(:)               !< (m) [F]
       logical, intent(inout) :: none(:)          !< (m)
       real(wp) :: before(system%n), after(system%n), sizes(system%n), of_body(system%n_bodies)
@@ -142,7 +145,7 @@ contains
       call add_transposed(system%rows, -1.0_wp, q, before)
       do
          after = system%load
-         call add_transposed(system%rows, -1.0_wp, merge(0.0_wp, q, none), after)
+         call add_transposed(system%rows, -1.0_wp, merge(0.0_wp, q, none(normal)), after)
          associate (is_off => abs(after) > abs(before) + BALANCED*of_body(system%body), moves => system%n - system%k)
             if (.not. any(is_off(moves + 1:))) return
             do i = 1, system%rows%n

@@ -366,7 +366,7 @@ contains
       end if
       ! states that depend on round-off alone are decided before the motions and the friction are
       call clear_unloaded(system, shape, multipliers, solution%state)
-      call clear_round_off(system, shape, multipliers, solution%state)
+      call clear_round_off(system, line, multipliers, solution%state)
       if (system%k > 0) call settle_undetermined_motions(system, solution%bounds, multipliers, solution%state, &
                                                          solution%inner%undetermined, before%a)
       solution%p = pressure_of(line, solution%state%q)
