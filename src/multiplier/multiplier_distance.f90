@@ -150,7 +150,7 @@ contains
             if (.not. any(is_off(moves + 1:))) return
             do i = 1, system%rows%n
                associate (columns => system%rows%column(system%rows%first(i):system%rows%first(i + 1) - 1))
-                  none(i) = none(i) .and. .not. any(is_off(columns) .and. columns > moves)
+                  if (any(is_off(columns) .and. columns > moves)) none(normal(i)) = .false.
                end associate
             end do
          end associate
