@@ -9,7 +9,8 @@
 !>
 !> of all pairs and bodies the largest. Each pair is measured by its own forces and each body by the forces on it, so a weak pair
 !> beside a strong one is found as exactly. What is round-off of the forces on the bodies that meet there (NO_FORCE), or of what a
-!> pair bore in the increment before (NO_FORCE_AFTER), is no force to compare with: a pair without any other has none.
+!> pair bore in the increment before (NO_FORCE_AFTER), is no force to compare with: a contact pair without any other has none, and
+!> what it changes by is none.
 module atrito_multiplier_distance
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use atrito_bound_qp, only: box_state_t, AT_LOWER, FREE
@@ -49,12 +50,17 @@ contains
       real(wp), intent(in) :: q(:)               !< (m) [F]
       real(wp), intent(in) :: tau(:), image(:)   !< (points) [F/L^2]
       type(distance_t) :: distance
-      real(wp) :: of_body(system%n_bodies), least(multipliers%n_pairs)
+      real(wp) :: of_body(system%n_bodies), least(multipliers%n_pairs), largest(multipliers%n_pairs)
+      real(wp) :: change(multipliers%n_pairs)
+      integer(ip) :: n
 
       call measure_bodies(system, q, of_body)
       call measure_pairs(system, multipliers, of_body, least)
-      distance%forces = greatest_ratio(largest_of_pairs(multipliers, abs(q - multipliers%q_old) - multipliers%noise), &
-                                       max(least, largest_of_pairs(multipliers, abs(q))))
+      largest = largest_of_pairs(multipliers, abs(q))
+      change = largest_of_pairs(multipliers, abs(q - multipliers%q_old) - multipliers%noise)
+      n = min(multipliers%n_contact_pairs, multipliers%n_pairs)
+      where (max(largest(:n), change(:n)) <= least(:n)) change(:n) = 0.0_wp
+      distance%forces = greatest_ratio(change, max(least, largest))
       distance%bound = bound_distance()
       ! bodies without load that went clear of each other have nothing that a pull could be compared with
       if (all(system%load == 0.0_wp) .and. all(abs(q) <= multipliers%noise)) return
@@ -118,7 +124,7 @@ contains
              state%state == FREE .and. multipliers%pair <= multipliers%n_contact_pairs
       none(count(line%normal > 0) + 1:) = .false.
       normal = [(merge(line%normal(line%point(i)), i, line%normal(line%point(i)) > 0), i=1, size(none, kind=ip))]
-      call keep_what_balances(system, normal, state%q, none)
+      call keep_what_balances(system, normal, multipliers%noise, state%q, none)
       where (none)
          state%q = 0.0_wp
          state%state = AT_LOWER
@@ -127,10 +133,11 @@ contains
    end subroutine clear_round_off
 
    !> A force without which the loads on a body are out of balance is one, however small: they may be as small.
-   subroutine keep_what_balances(system, normal, q, none)
+   !> But for the noise of the forces that are left on it: where these are no more than that nothing is balanced.
+   subroutine keep_what_balances(system, normal, noise, q, none)
       class(contact_system_t), intent(in) :: system
       integer(ip), intent(in) :: normal(:)       !< (m) row of the pressure with which a force goes
-      real(wp), intent(in) :: q(:)               !< (m) [F]
+      real(wp), intent(in) :: noise(:), q(:)     !< (m) [F]
       logical, intent(inout) :: none(:)          !< (m)
       real(wp) :: before(system%n), after(system%n), sizes(system%n), of_body(system%n_bodies)
       integer(ip) :: i
@@ -146,7 +153,8 @@ contains
       do
          after = system%load
          call add_transposed(system%rows, -1.0_wp, merge(0.0_wp, q, none(normal)), after)
-         associate (is_off => abs(after) > abs(before) + BALANCED*of_body(system%body), moves => system%n - system%k)
+         sizes = transposed_sizes(system%rows, merge(noise, 0.0_wp, .not. none(normal) .and. abs(q) > 0.0_wp))
+         associate (is_off => abs(after) > abs(before) + BALANCED*of_body(system%body) + sizes, moves => system%n - system%k)
             if (.not. any(is_off(moves + 1:))) return
             do i = 1, system%rows%n
                associate (columns => system%rows%column(system%rows%first(i):system%rows%first(i + 1) - 1))
