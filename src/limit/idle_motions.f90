@@ -33,6 +33,8 @@ module atrito_idle_motions
    real(wp), parameter :: NO_FORCE = 1.0e-13_wp     !< of the largest force on bodies that touch: round-off
    real(wp), parameter :: DOUBTS = 5.0_wp           !< of a normal, which a force may be off by, over the largest one
    real(wp), parameter :: MOST_DOUBT = 1.0e-9_wp    !< that balances leave
+   real(wp), parameter :: ROUNDING = 1.0e-12_wp     !< of a way that bodies went
+   integer(ip), parameter :: MOST_CLOSINGS = 5_ip   !< of points that it has made overlap
    real(wp), parameter :: BALANCED = 1.0e-8_wp      !< of the forces on a body, for the final check
 
 contains
@@ -98,10 +100,23 @@ contains
                       solution, way)
       if (.not. solution%has_settled) return
       ! only those that have moved: others are exact to their own rounding, which may be far less
-      holds = [(holds(i) .and. has_moved(rows, group, way, i), i=1, rows%n)]
-      call close_rows(data, rows, holds, u, solution)
+      call close_rows(data, rows, [(holds(i) .and. has_moved(rows, group, way, i), i=1, rows%n)], u, solution)
+      do i = 1, MOST_CLOSINGS
+         if (.not. any(overlaps() .and. .not. holds)) return
+         holds = holds .or. overlaps()
+         call close_rows(data, rows, holds, u, solution)
+      end do
 
    contains
+
+      !> Open points that the rounding of the way has made overlap.
+      function overlaps()
+         logical :: overlaps(rows%n)
+         integer(ip) :: i
+
+         overlaps = [(solution%state%state(i) == AT_LOWER .and. i <= count(data%line%normal > 0), i=1, rows%n)]
+         overlaps = overlaps .and. solution%state%r > 0.0_wp .and. solution%state%r <= ROUNDING*maxval(abs(way))
+      end function overlaps
 
       !> A force that is less than what the digits of the deck make of the largest one on its body, and without which a motion were
       !> idle, is none: a roller that stands on one node does not turn until the next one touches because its load is off by the
@@ -412,26 +427,27 @@ contains
       end do
    end function has_moved
 
-   !> After a long way the rows that take a force are off by its rounding: the least rigid motions that put them right.
+   !> After a long way the rows that take a force, and points that have come to touch, are off by its rounding: the least rigid
+   !> motions that put them right.
    !>
    !> A row that holds says G_i a + row_i(u) = D_i q_i (gap, rest slip and value are in row_i); what it is off by then is EPS_MACH
    !> times the way or so. The least b with G b = off, in the sense of least squares, is taken off the motions.
-   subroutine close_rows(data, rows, holds, u, solution)
+   subroutine close_rows(data, rows, closes, u, solution)
       type(scene_data_t), intent(in) :: data
       type(motion_rows_t), intent(in) :: rows
-      logical, intent(in) :: holds(:)               !< (m)
+      logical, intent(in) :: closes(:)              !< (m)
       real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) without rigid motions [L]
-      type(contact_solution_t), intent(inout) :: solution
+      type(contact_solution_t), intent(inout) :: solution !< motions, and r of open rows
       real(wp), parameter :: DEPENDENT = 1.0e-8_wp
-      real(wp), allocatable :: g(:, :), off(:), moved(:)
-      real(wp) :: back(rows%n_columns)
+      real(wp), allocatable :: g(:, :), off(:)
+      real(wp) :: back(rows%n_columns), moved(rows%n)
       integer(ip), allocatable :: list(:)
       integer(ip) :: i, rank, info
 
-      list = pack([(i, i=1, rows%n)], holds)
+      list = pack([(i, i=1, rows%n)], closes)
       if (size(list) == 0 .or. real(size(list), wp)*rows%n_columns > MOST_ENTRIES) return
       allocate (g(size(list), rows%n_columns), source=0.0_wp)
-      allocate (off(size(list)), moved(rows%n))
+      allocate (off(size(list)))
       call multiply_rows(rows, solution%state%a, moved)
       do i = 1, size(list, kind=ip)
          associate (k => list(i))
@@ -440,7 +456,10 @@ contains
          end associate
       end do
       call least_squares(g, off, back, DEPENDENT, rank, info)
-      if (info == 0) solution%state%a = solution%state%a - back
+      if (info /= 0) return
+      solution%state%a = solution%state%a - back
+      call multiply_rows(rows, back, moved)
+      where (solution%state%state /= FREE) solution%state%r = solution%state%r - moved
    end subroutine close_rows
 
    !> What the displacements make of row i beyond its gap, rest slip or value [L].

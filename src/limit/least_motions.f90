@@ -190,7 +190,10 @@ contains
          r = matmul(e, u)
          r(n + 1) = r(n + 1) - 1
          gain = merge(-huge(1.0_wp), -matmul(r, e), is_free)
-         if (maxval(gain) <= ROUND_OFF .and. abs(r(n + 1)) > ROUND_OFF) s = wanted - norm2(wanted)*r(:n)/r(n + 1)
+         if (maxval(gain) <= ROUND_OFF .and. abs(r(n + 1)) > ROUND_OFF) then
+            s = wanted - norm2(wanted)*r(:n)/r(n + 1)
+            call go_onto_planes()
+         end if
          if (maxval(gain) <= ROUND_OFF) return
          is_free(maxloc(gain, dim=1)) = .true.
          do                                           ! of the free ones one leaves at each turn
@@ -206,6 +209,19 @@ contains
          end do
          u = z
       end do
+
+   contains
+
+      !> Conditions that are nearly the same are met by what the way to them rounds to: the least step meets them to their own digits.
+      subroutine go_onto_planes()
+         real(wp), allocatable :: planes(:, :)
+         real(wp) :: step(n)
+
+         planes = transpose(a(:, pack([(i, i=1, size(u, kind=ip))], u > 0.0_wp)))
+         call least_squares(planes, matmul(planes, s) - pack(bound, u > 0.0_wp), step, DEPENDENT, rank, info)
+         if (info == 0) s = s - step
+      end subroutine go_onto_planes
+
    end subroutine meet_exactly
 
 end module atrito_least_motions

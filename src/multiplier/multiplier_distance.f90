@@ -9,18 +9,20 @@
 !>
 !> of all pairs and bodies the largest. Each pair is measured by its own forces and each body by the forces on it, so a weak pair
 !> beside a strong one is found as exactly. What is round-off of the forces on the bodies that meet there (NO_FORCE), or of what a
-!> pair bore in the increment before (NO_FORCE_AFTER), is no force to compare with: a pair without any other has none.
+!> pair bore in the increment before (NO_FORCE_AFTER), is no force to compare with: a contact pair without any other has none, and
+!> what it changes by is none.
 module atrito_multiplier_distance
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use atrito_bound_qp, only: box_state_t, AT_LOWER, FREE
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_system, only: contact_system_t
    use atrito_kinds, only: ip, wp, HUGE_REAL
    use atrito_multiplier_step, only: largest_of_pairs, pull_of
    use atrito_multipliers, only: multiplier_t
-   use atrito_sparse_rows, only: add_transposed
+   use atrito_sparse_rows, only: add_transposed, transposed_sizes
    implicit none (type, external)
    private
-   public :: distance_t, measure_distance, measure_bodies, forces_that_are_none, NO_FORCE_AFTER
+   public :: distance_t, measure_distance, measure_bodies, clear_round_off, NO_FORCE_AFTER
 
    !> Relative to the forces of the pair or body.
    type :: distance_t
@@ -31,6 +33,7 @@ module atrito_multiplier_distance
    end type distance_t
 
    real(wp), parameter :: NO_FORCE = 1.0e-12_wp  !< of the forces on the bodies that meet: none
+   real(wp), parameter :: BALANCED = 1.0e-9_wp   !< of the forces on a body that move it: nothing is missing
    real(wp), parameter :: NO_FORCE_AFTER = 1.0e-14_wp !< of the force in the increment before
    !> The same of a bilateral row: it may be where nothing moves, and nothing tells its noise.
    real(wp), parameter :: LITTLE = 1.0e-5_wp
@@ -47,12 +50,17 @@ contains
       real(wp), intent(in) :: q(:)               !< (m) [F]
       real(wp), intent(in) :: tau(:), image(:)   !< (points) [F/L^2]
       type(distance_t) :: distance
-      real(wp) :: of_body(system%n_bodies), least(multipliers%n_pairs)
+      real(wp) :: of_body(system%n_bodies), least(multipliers%n_pairs), largest(multipliers%n_pairs)
+      real(wp) :: change(multipliers%n_pairs)
+      integer(ip) :: n
 
       call measure_bodies(system, q, of_body)
       call measure_pairs(system, multipliers, of_body, least)
-      distance%forces = greatest_ratio(largest_of_pairs(multipliers, abs(q - multipliers%q_old) - multipliers%noise), &
-                                       max(least, largest_of_pairs(multipliers, abs(q))))
+      largest = largest_of_pairs(multipliers, abs(q))
+      change = largest_of_pairs(multipliers, abs(q - multipliers%q_old) - multipliers%noise)
+      n = min(multipliers%n_contact_pairs, multipliers%n_pairs)
+      where (max(largest(:n), change(:n)) <= least(:n)) change(:n) = 0.0_wp
+      distance%forces = greatest_ratio(change, max(least, largest))
       distance%bound = bound_distance()
       ! bodies without load that went clear of each other have nothing that a pull could be compared with
       if (all(system%load == 0.0_wp) .and. all(abs(q) <= multipliers%noise)) return
@@ -96,21 +104,66 @@ contains
 
    end function measure_distance
 
-   !> Which rows are of pairs whose forces are round-off of those on their bodies.
+   !> A pressure that is round-off is none: the point is open. It is where it is no more than the noise of its row, or where all
+   !> forces of its pair are round-off of those on their bodies.
    !>
-   !> In the end their points are open: what is left there is no contact.
-   function forces_that_are_none(system, multipliers, q) result(none)
+   !> Rows of contact alone: a bilateral row may have a force of any size and sign.
+   subroutine clear_round_off(system, line, multipliers, state)
       class(contact_system_t), intent(in) :: system !< A, B, loads, flexibilities
+      type(contact_line_t), intent(in) :: line !< which rows are normal, and which of one point
       type(multiplier_t), intent(in) :: multipliers !< x, e, q_o, a_o and the sizes of the step
-      real(wp), intent(in) :: q(:)
-      logical :: none(size(q))
+      type(box_state_t), intent(inout) :: state !< states of the m unknowns, q, a, r
       real(wp) :: of_body(system%n_bodies), least(multipliers%n_pairs), largest(multipliers%n_pairs)
+      logical :: none(size(state%q))
+      integer(ip) :: normal(size(state%q)), i
 
-      call measure_bodies(system, q, of_body)
+      call measure_bodies(system, state%q, of_body)
       call measure_pairs(system, multipliers, of_body, least)
-      largest = largest_of_pairs(multipliers, abs(q))
-      none = largest(multipliers%pair) <= least(multipliers%pair)
-   end function forces_that_are_none
+      largest = largest_of_pairs(multipliers, abs(state%q))
+      none = (state%q <= multipliers%noise .or. largest(multipliers%pair) <= least(multipliers%pair)) .and. &
+             state%state == FREE .and. multipliers%pair <= multipliers%n_contact_pairs
+      none(count(line%normal > 0) + 1:) = .false.
+      normal = [(merge(line%normal(line%point(i)), i, line%normal(line%point(i)) > 0), i=1, size(none, kind=ip))]
+      call keep_what_balances(system, normal, multipliers%noise, state%q, none)
+      where (none)
+         state%q = 0.0_wp
+         state%state = AT_LOWER
+         state%r = min(state%r, 0.0_wp)
+      end where
+   end subroutine clear_round_off
+
+   !> A force without which the loads on a body are out of balance is one, however small: they may be as small.
+   !> But for the noise of the forces that are left on it: where these are no more than that nothing is balanced.
+   subroutine keep_what_balances(system, normal, noise, q, none)
+      class(contact_system_t), intent(in) :: system
+      integer(ip), intent(in) :: normal(:)       !< (m) row of the pressure with which a force goes
+      real(wp), intent(in) :: noise(:), q(:)     !< (m) [F]
+      logical, intent(inout) :: none(:)          !< (m)
+      real(wp) :: before(system%n), after(system%n), sizes(system%n), of_body(system%n_bodies)
+      integer(ip) :: i
+
+      if (.not. any(none)) return
+      sizes = transposed_sizes(system%rows, q)
+      of_body = 0.0_wp
+      do i = system%n - system%k + 1, system%n
+         of_body(system%body(i)) = max(of_body(system%body(i)), sizes(i))
+      end do
+      before = system%load
+      call add_transposed(system%rows, -1.0_wp, q, before)
+      do
+         after = system%load
+         call add_transposed(system%rows, -1.0_wp, merge(0.0_wp, q, none(normal)), after)
+         sizes = transposed_sizes(system%rows, merge(noise, 0.0_wp, .not. none(normal) .and. abs(q) > 0.0_wp))
+         associate (is_off => abs(after) > abs(before) + BALANCED*of_body(system%body) + sizes, moves => system%n - system%k)
+            if (.not. any(is_off(moves + 1:))) return
+            do i = 1, system%rows%n
+               associate (columns => system%rows%column(system%rows%first(i):system%rows%first(i + 1) - 1))
+                  if (any(is_off(columns) .and. columns > moves)) none(normal(i)) = .false.
+               end associate
+            end do
+         end associate
+      end do
+   end subroutine keep_what_balances
 
    !> The largest load and contact force at a displacement of each body; at least a round-off of those on bodies that it touches.
    !>

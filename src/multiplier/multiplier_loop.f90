@@ -48,11 +48,11 @@ module atrito_multiplier_loop
    use atrito_multipliers, only: multiplier_t
    use atrito_undetermined_motions, only: settle_undetermined_motions
    use atrito_kinds, only: ip, wp, HUGE_REAL
-   use atrito_multiplier_distance, only: distance_t, measure_distance, measure_bodies, forces_that_are_none, NO_FORCE_AFTER
+   use atrito_multiplier_distance, only: distance_t, measure_distance, measure_bodies, clear_round_off, NO_FORCE_AFTER
    use atrito_multiplier_pace, only: loop_t, follow_drift, choose_steps, pull_firmly_again, next_start, LEAST_KAPPA, USUAL_KAPPA, &
                                      NO_LOAD, LITTLE_LEFT, STALE_DISTANCE
    use atrito_multiplier_step, only: begin_multipliers, close_all, start_closed, take_multiplier_step, refine_step, accept_step, &
-                                     take_least_forces, clear_round_off, largest_of_pairs, residual_of, set_forces
+                                     take_least_forces, largest_of_pairs, residual_of, set_forces
    use atrito_loop_progress, only: note_residual, report_step
    use atrito_reporter, only: reporter_t
    use atrito_solve_history, only: begin_outer, end_outer
@@ -261,6 +261,7 @@ contains
       multipliers = before%multipliers
       if (allocated(multipliers%before)) deallocate (multipliers%before)
       multipliers%r = fresh%r
+      multipliers%changed = .true.               ! gaps may be others: e is not that of x
       multipliers%part = spread(1.0_wp, 1, shape%m)
       multipliers%before = largest_of_pairs(multipliers, abs(before%state%q))
       multipliers%factorisations = 0
@@ -365,7 +366,7 @@ contains
       end if
       ! states that depend on round-off alone are decided before the motions and the friction are
       call clear_unloaded(system, shape, multipliers, solution%state)
-      call clear_round_off(shape, forces_that_are_none(system, multipliers, solution%state%q), multipliers, solution%state)
+      call clear_round_off(system, line, multipliers, solution%state)
       if (system%k > 0) call settle_undetermined_motions(system, solution%bounds, multipliers, solution%state, &
                                                          solution%inner%undetermined, before%a)
       solution%p = pressure_of(line, solution%state%q)

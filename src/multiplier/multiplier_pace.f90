@@ -36,12 +36,14 @@ module atrito_multiplier_pace
       real(wp) :: change = 0.0_wp                !< of the forces in the last step, relative as in distance
       logical :: is_firm = .false.               !< the pull was made usual again
       logical :: slow = .false.                  !< states went on changing: smaller steps
+      real(wp) :: mixed = HUGE_REAL              !< distance of the bound when it was mixed last
       real(wp), allocatable :: share(:)          !< (points) of the way to Picard's bound that the next one goes
       real(wp), allocatable :: off(:)            !< (points) Picard's bound less the last one [F/L^2]
    end type loop_t
 
    real(wp), parameter :: STALE_DISTANCE = 1.0e-8_wp
    real(wp), parameter :: MOST_MIXING = 5.0_wp        !< times Picard's bound
+   real(wp), parameter :: FARTHER = 3.0_wp            !< times the distance of the bound before
    integer(ip), parameter :: MANY_STEPS = 100_ip      !< after which states that still change ask for smaller steps:
    real(wp), parameter :: SLOW_R = 1.0_wp             !< rho over the flexibility of a row then
    real(wp), parameter :: LAGS = 0.5_wp               !< change of the forces over that of the step before that is slow
@@ -181,6 +183,7 @@ contains
          return
       end if
       call anderson%reset()
+      loop%mixed = HUGE_REAL
       if (loop%slow) then
          call go_part_of_the_way()
       else
@@ -189,9 +192,13 @@ contains
 
    contains
 
-      !> Anderson's mixing of the bound, once the forces have come.
+      !> Anderson's mixing of the bound, once the forces have come. Differences that are round-off lead away: then it begins anew.
       subroutine mix_bound()
-         if (loop%can_wait .and. loop%lagging > 0) then
+         logical :: leads_away
+
+         leads_away = loop%distance%bound > FARTHER*loop%mixed
+         loop%mixed = loop%distance%bound
+         if ((loop%can_wait .and. loop%lagging > 0) .or. leads_away) then
             call anderson%reset()
             tau = image
          else

@@ -44,7 +44,7 @@ module atrito_multiplier_step
    private
    public :: residual_of, provide_factor
    public :: begin_multipliers, close_all, start_closed, take_multiplier_step, refine_step, accept_step, set_forces, &
-             set_held_forces, pull_of, take_least_forces, clear_round_off, largest_of_pairs, rho_of
+             set_held_forces, pull_of, take_least_forces, largest_of_pairs, rho_of
 
    integer(ip), parameter :: MOST_NEWTON = 200_ip
    integer(ip), parameter :: PATIENCE = 20_ip         !< Newton steps without a full one
@@ -121,6 +121,7 @@ contains
       if (.not. is_ok(status)) return
       call system%solve(residual)
       multipliers%x = residual
+      multipliers%changed = .true.               ! e is not that of x
       multipliers%solves = 1
       ! where the bodies come to is where they are held at first
       multipliers%a_old = multipliers%x(system%n - system%k + 1:)
@@ -277,10 +278,13 @@ contains
       integer(ip) :: newton
       logical :: stays
 
+      ! e goes on from step to step where states stand: of motions far larger than the strains x has lost digits that e has
+      de = 0.0_wp
+      if (holds) call set_held_forces(system, bounds, multipliers, state)
+      if (.not. holds .and. multipliers%changed) call set_forces(system, bounds, multipliers, state)
+      if (.not. (holds .or. multipliers%changed)) call set_forces(system, bounds, multipliers, state, de)
       multipliers%settled = .false.
       multipliers%changed = .false.
-      if (holds) call set_held_forces(system, bounds, multipliers, state)
-      if (.not. holds) call set_forces(system, bounds, multipliers, state)
       do newton = 1, MOST_NEWTON
          ! minus the gradient, the matrix of the present states, Newton's direction
          call residual_of(system, multipliers, state%q, residual)
@@ -463,25 +467,6 @@ contains
       end where
       call find_least_forces(rows, weight, bounds, may_change, state, is_shared)
    end subroutine take_least_forces
-
-   !> A pressure that is round-off is none: the point is open.
-   !>
-   !> Rows of contact alone: a bilateral row may have a force of any size and sign.
-   subroutine clear_round_off(shape, none, multipliers, state)
-      type(bound_qp_t), intent(in) :: shape
-      logical, intent(in) :: none(:)             !< (m) of a pair without any force but round-off
-      type(multiplier_t), intent(in) :: multipliers
-      type(box_state_t), intent(inout) :: state
-
-      associate (n => shape%n_normal)
-         where (state%state(:n) == FREE .and. multipliers%pair(:n) <= multipliers%n_contact_pairs .and. &
-                (state%q(:n) <= multipliers%noise(:n) .or. none(:n)))
-            state%q(:n) = 0.0_wp
-            state%state(:n) = AT_LOWER
-            state%r(:n) = min(state%r(:n), 0.0_wp)
-         end where
-      end associate
-   end subroutine clear_round_off
 
    !> What the step has found is where the next one starts.
    !>

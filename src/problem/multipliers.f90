@@ -33,7 +33,7 @@ module atrito_multipliers
       real(wp), allocatable :: stiffness(:)      !< (m) that was factored last
       real(wp), allocatable :: pull(:)           !< (k) that was factored last
       logical :: settled = .false.               !< the last step ended with the states that it assumed
-      logical :: changed = .false.               !< the last step changed a state
+      logical :: changed = .false.               !< the last step changed a state: e is computed from x again
       integer(ip) :: factorisations = 0, solves = 0 !< of the increment
       integer(ip) :: generation = -1             !< of the system's factorisation that stiffness and pull are of
    end type multiplier_t
