@@ -18,7 +18,7 @@ module atrito_driver
    use atrito_help_pages, only: compose_man_page, compose_options, compose_topic, compose_usage
    use atrito_keyword_table, only: keyword_table, keyword_names
    use atrito_kinds, only: ip, lp
-   use atrito_libraries, only: library_t, add_libraries, version_lines, LOADED
+   use atrito_libraries, only: library_t, add_libraries, list_libraries, LOADED
    use atrito_load_model, only: load_model, prepare_observations
    use atrito_memory, only: memory_text
    use atrito_messages, only: message_t, add_warning, clear_messages, SEVERITY_ERROR, SEVERITY_WARNING
@@ -59,13 +59,15 @@ contains
    subroutine run_program(n_on_host, code)
       integer(ip), intent(in) :: n_on_host          !< ranks of the first one's host, itself among them
       integer, intent(out) :: code                  !< one of STATUS_*
-      type(string_t), allocatable :: arguments(:), lines(:)
+      type(string_t), allocatable :: arguments(:)
+      type(library_t), allocatable :: libraries(:)
       type(command_t) :: command
       type(message_t) :: error
       type(page_t) :: page
       type(body_cache_t) :: store
       type(status_t) :: status
       logical :: ok
+      integer :: i
 
       call fetch_arguments(arguments)
       call parse_command(arguments, command, ok, error)
@@ -106,9 +108,11 @@ contains
          code = STATUS_OK
       case (TASK_VERSION)
          if (has_mpi()) call name_libraries(.true.)
-         call version_lines(lines)
          call print_line(PROGRAM_NAME//' '//PROGRAM_VERSION, output_unit)
-         call print_lines(lines, output_unit)
+         call list_libraries(.false., libraries)
+         do i = 1, size(libraries)
+            call print_line(trim(libraries(i)%name)//': '//libraries(i)%version, output_unit)
+         end do
          code = STATUS_OK
       case (TASK_USAGE)
          call compose_usage(page)

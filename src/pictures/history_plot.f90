@@ -42,7 +42,6 @@ contains
       type(history_t), intent(in) :: history        !< its rows are read
 
       has = .false.
-      if (.not. allocated(history%rows)) return
       if (size(history%rows) < 2 .or. .not. has_history(model, history)) return
       has = size(history%rows, kind=ip) > maxval(history%rows%pair)
    end function has_history_plot

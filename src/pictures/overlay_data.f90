@@ -5,7 +5,7 @@ module atrito_overlay_data
    use atrito_status, only: status_t, is_ok
    use atrito_read_table, only: comment_of, table_file_t, read_table, table_path, find_column, item_text
    use atrito_plot_text, only: range_t, cover
-   use atrito_strings, only: string_t, to_text
+   use atrito_strings, only: replaced, string_t, to_text
    use atrito_summary, only: quantity_names
    implicit none (type, external)
    private
@@ -153,7 +153,7 @@ contains
       type(table_file_t), intent(in) :: table       !< summary
       type(quantity_t), allocatable :: list(:)
       type(string_t), allocatable :: known(:)
-      character(len=len(list%name)) :: name, label
+      character(len=len(list%name)) :: name
       integer(ip) :: c_name, row
       integer :: i
 
@@ -164,11 +164,7 @@ contains
       do row = 1, table%n_rows
          name = item_text(table, c_name, row)
          if (any([(known(i)%s == name, i=1, size(known))]) .or. any(list%name == name)) cycle
-         label = name
-         do i = 1, len_trim(label)
-            if (label(i:i) == '_') label(i:i) = ' '
-         end do
-         list = [list, quantity_t(name, label, '')]
+         list = [list, quantity_t(name, replaced(name, '_', ' '), '')]
          if (size(list) == MOST_OBSERVED) return
       end do
    end function observed_quantities

@@ -4,7 +4,7 @@ module atrito_series_reports
    use atrito_html, only: add_element, add_fact, add_list, add_note, unbroken
    use atrito_html_table, only: table_top_t, read_top, begin_rows, end_rows, add_cells, MANY_COLUMNS
    use atrito_kinds, only: ip, wp, is_nan
-   use atrito_libraries, only: version_lines
+   use atrito_libraries, only: library_t, list_libraries
    use atrito_page, only: page_t, add_line, number, plural
    use atrito_read_table, only: find_column, item_text
    use atrito_report, only: report_t, page_section_t, begin_section, add_section
@@ -35,8 +35,8 @@ contains
       character(len=*), intent(in) :: tables(:)     !< names without ending
       type(string_t), intent(in) :: pictures(:)     !< that were drawn
       type(report_t), intent(out) :: report         !< with names and versions, nothing of the runs
-      type(string_t), allocatable :: lines(:)
-      integer :: i, colon
+      type(library_t), allocatable :: libraries(:)
+      integer :: i
 
       report%what = what
       report%deck = deck
@@ -47,10 +47,9 @@ contains
          if (file_exists(folder//'/'//trim(tables(i))//'.tab')) call append_string(report%files, trim(tables(i))//'.tab')
          if (file_exists(folder//'/'//trim(tables(i))//'.csv')) call append_string(report%files, trim(tables(i))//'.csv')
       end do
-      call version_lines(lines)
-      do i = 1, size(lines)
-         colon = index(lines(i)%s, ': ')
-         call add_fact(report%versions, lines(i)%s(:colon - 1), lines(i)%s(colon + 2:))
+      call list_libraries(.false., libraries)
+      do i = 1, size(libraries)
+         call add_fact(report%versions, trim(libraries(i)%name), libraries(i)%version)
       end do
    end subroutine begin_series
 

@@ -65,7 +65,7 @@ contains
       type(page_t), intent(inout) :: page            !< gets the view
       type(table_t), intent(out) :: table            !< show-states
       integer(ip) :: i, n
-      character(len=:), allocatable :: place, letters
+      character(len=:), allocatable :: place, shown
 
       n = size(states%letters, kind=ip)
       call add_heading(page, 'states of the points, a line a linear solve, the points pair by pair along s')
@@ -75,9 +75,9 @@ contains
          place = ''
          if (states%numbers(4, i) == 1) place = to_text(states%numbers(1, i))//'.'//to_text(states%numbers(2, i))
          place = right(place, 7)//right(to_text(states%numbers(3, i)), 5)//'.'//left(to_text(states%numbers(4, i)), 3)//'  '
-         letters = states%letters(i)%s
-         if (len(letters) > ROOM) letters = letters(:ROOM - 2)//'..'
-         call add_line(page, place//letters)
+         shown = states%letters(i)%s
+         if (len(shown) > ROOM) shown = shown(:ROOM - 2)//'..'
+         call add_line(page, place//shown)
       end do
       call begin_table(table, 'show-states', 'a row a linear solve', n)
       call append_string(table%remarks, LETTERS//'; a letter a point, pair by pair along s')

@@ -1,9 +1,8 @@
 !> The tables with rows of all increments, docs/user/tables.md: summary, history, iterations.
 module atrito_history_tables
    use atrito_kinds, only: ip, wp
-   use atrito_increments, only: all_iterations
    use atrito_number_text, only: trimmed_real
-   use atrito_results, only: results_t, history_t, history_row_t, iteration_t, last_frame, observed_list_t
+   use atrito_results, only: results_t, history_t, history_row_t, last_frame, observed_list_t
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_summary, only: pair_summary_t, quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, pair_count
    use atrito_table, only: table_t, begin_table, add_reals, add_integers, add_words, abs_is_below, ZERO_SHARE
@@ -220,21 +219,21 @@ contains
    subroutine build_iterations(history, table)
       type(history_t), intent(in) :: history !< with all frames
       type(table_t), intent(out) :: table    !< a row an inner solve
-      type(iteration_t), allocatable :: rows(:)
 
-      rows = all_iterations(history)
-      call begin_table(table, 'iterations', 'a row an inner solve', size(rows, kind=ip))
-      call add_integers(table, 'step', (rows%step))
-      call add_integers(table, 'outer', (rows%outer))
-      call add_integers(table, 'inner', (rows%inner))
-      call add_reals(table, 'change_displacement', '-', (rows%change_displacement), 0.0_wp)
-      call add_reals(table, 'change_pressure', '-', (rows%change_pressure), 0.0_wp)
-      call add_reals(table, 'change_friction', '-', (rows%change_friction), 0.0_wp)
-      call add_integers(table, 'open', (rows%open))
-      call add_integers(table, 'stick', (rows%stick))
-      call add_integers(table, 'slip', (rows%slip))
-      call add_reals(table, 'residual', '-', (rows%residual), 0.0_wp)
-      call add_integers(table, 'increment', (rows%increment))
+      associate (rows => history%iterations)
+         call begin_table(table, 'iterations', 'a row an inner solve', size(rows, kind=ip))
+         call add_integers(table, 'step', (rows%step))
+         call add_integers(table, 'outer', (rows%outer))
+         call add_integers(table, 'inner', (rows%inner))
+         call add_reals(table, 'change_displacement', '-', (rows%change_displacement), 0.0_wp)
+         call add_reals(table, 'change_pressure', '-', (rows%change_pressure), 0.0_wp)
+         call add_reals(table, 'change_friction', '-', (rows%change_friction), 0.0_wp)
+         call add_integers(table, 'open', (rows%open))
+         call add_integers(table, 'stick', (rows%stick))
+         call add_integers(table, 'slip', (rows%slip))
+         call add_reals(table, 'residual', '-', (rows%residual), 0.0_wp)
+         call add_integers(table, 'increment', (rows%increment))
+      end associate
    end subroutine build_iterations
 
 end module atrito_history_tables

@@ -6,7 +6,7 @@ module atrito_increments
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: increment_t, list_increments, has_history, all_iterations, increment_name, ending_text, time_text
+   public :: increment_t, list_increments, has_history, increment_name, ending_text, time_text
 
    integer, parameter :: TIME_DIGITS = 10
 
@@ -21,13 +21,12 @@ contains
 
    !> All increments that converged, in the order of time; without contact, which history has rows of, those that are printed.
    pure function list_increments(history) result(list)
-      type(history_t), intent(in) :: history !< with rows, or with frames
+      type(history_t), intent(in) :: history !< with rows, or with frames alone
       type(increment_t), allocatable :: list(:)
       integer(ip) :: n, i
       logical :: has_rows
 
-      has_rows = .false.
-      if (allocated(history%rows)) has_rows = size(history%rows) > 0
+      has_rows = size(history%rows) > 0
       n = size(history%frames, kind=ip)
       if (has_rows) n = size(history%rows, kind=ip)
       allocate (list(n))
@@ -39,7 +38,7 @@ contains
          end if
       end do
       list = pack(list, [(is_first(list, i), i=1, n)])
-      call add_outcomes(all_iterations(history), list)
+      call add_outcomes(history%iterations, list)
    end function list_increments
 
    !> Whether a place of the list begins an increment: rows of one stand together.
@@ -70,26 +69,6 @@ contains
          list(k)%residual = iterations(i)%residual
       end do
    end subroutine add_outcomes
-
-   !> The iterations of all increments: those of the history, or, where it has none, those of its frames.
-   pure function all_iterations(history) result(rows)
-      type(history_t), intent(in) :: history !< with iterations, or with frames that have them
-      type(iteration_t), allocatable :: rows(:), own(:)
-      integer :: i
-
-      if (allocated(history%iterations)) then
-         rows = history%iterations
-         return
-      end if
-      allocate (rows(0))
-      do i = 1, size(history%frames)
-         if (.not. allocated(history%frames(i)%iterations)) cycle
-         own = history%frames(i)%iterations
-         own%step = history%frames(i)%step
-         own%increment = history%frames(i)%increment
-         rows = [rows, own]
-      end do
-   end function all_iterations
 
    !> More than one increment, a deck of several steps, or an end before the end.
    pure logical function has_history(model, history)

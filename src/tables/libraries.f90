@@ -4,10 +4,9 @@ module atrito_libraries
    use atrito_blas_info, only: blas_name, is_reference_blas, lapack_version
    use atrito_clp, only: has_clp, clp_version, clp_trouble
    use atrito_multifrontal, only: has_metis, metis_version, metis_trouble
-   use atrito_strings, only: string_t
    implicit none (type, external)
    private
-   public :: library_t, add_libraries, list_libraries, version_lines, LOADED
+   public :: library_t, add_libraries, list_libraries, LOADED
 
    type :: library_t
       character(len=8) :: name = ''                 !< what it is, e.g. BLAS
@@ -54,18 +53,5 @@ contains
       end if
       if (allocated(besides)) list = [list, besides]
    end subroutine list_libraries
-
-   !> What `--version` prints below the name of the program: `BLAS: OpenBLAS 0.3.21 ...`
-   subroutine version_lines(lines)
-      type(string_t), allocatable, intent(out) :: lines(:) !< a line a library
-      type(library_t), allocatable :: list(:)
-      integer :: i
-
-      call list_libraries(.false., list)
-      allocate (lines(size(list)))
-      do i = 1, size(list)
-         lines(i)%s = trim(list(i)%name)//': '//list(i)%version
-      end do
-   end subroutine version_lines
 
 end module atrito_libraries

@@ -95,7 +95,8 @@ contains
          call add_contact(page, model, history, scales, own)
          call describe_rows(page, model, last)
          call add_heading(page, '6  REACTIONS AND EQUILIBRIUM')
-         if (has_history(model, history)) call add_line(page, '   at the end: '//frame_name(last))
+         if (has_history(model, history)) call add_line(page, '   at the end: '// &
+                                                                  increment_name(last%step, last%increment, last%time))
          call add_equilibrium(page, model, last, scales)
          call describe_extremes(page, last, scales)
          call add_heading(page, '7  WHAT WAS PRINTED')
@@ -168,13 +169,6 @@ contains
          call add_paragraph(page, 'All others are proved for the exact solution, and no states are held.', 6)
       end if
    end subroutine add_bounded
-
-   pure function frame_name(results) result(text)
-      type(results_t), intent(in) :: results
-      character(len=:), allocatable :: text
-
-      text = increment_name(results%step, results%increment, results%time)
-   end function frame_name
 
    subroutine add_title(page, model, history)
       type(page_t), intent(inout) :: page
@@ -309,7 +303,7 @@ contains
          if (.not. has_frame_rows(model, frame, 'contact', i == last_frame(history))) cycle
          if (is_told) call add_blank(page)
          is_told = .true.
-         if (has_history(model, history)) call add_line(page, frame_name(frame))
+         if (has_history(model, history)) call add_line(page, increment_name(frame%step, frame%increment, frame%time))
          call add_pairs(page, frame, own)
          if (has_history(model, history)) call describe_rigid_bodies(page, frame, scales)
       end do

@@ -197,7 +197,7 @@ contains
       case ('timing')
          return
       case ('history')
-         if (.not. has_rows(model, history)) return
+         if (.not. merge(has_history(model, history), history%observed%n > 1, size(history%rows) > 0)) return
          call build_history(history, whole%scales%length, table)
          call write_table(set, table, whole%origin, whole%digits, status, whole%is_csv)
       case ('iterations')
@@ -222,21 +222,6 @@ contains
          call build_frame_table(model, frame, whole%scales, whole%own, name, piece)
       end if
    end subroutine build_piece
-
-   !> Whether there is a history to be told of.
-   pure logical function has_rows(model, history)
-      type(model_t), intent(in) :: model
-      type(history_t), intent(in) :: history
-
-      has_rows = .false.
-      if (.not. allocated(history%rows)) return
-      has_rows = size(history%rows) > 0
-      if (has_rows) then
-         has_rows = has_history(model, history)
-      else
-         has_rows = history%observed%n > 1
-      end if
-   end function has_rows
 
    !> Writes the table timing: the phases that have ended, their sum, and the peak memory as a comment.
    subroutine write_timing(model, history, digits, set, status, is_csv)

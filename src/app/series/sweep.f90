@@ -220,19 +220,11 @@ contains
       one%plot = .false.                            ! the pictures of a sweep lay its runs over one another
       if (rank_count() == 1) one%threads = 1         ! the runs are side by side instead
       one%on_one_rank = .true.
-      one%folder = run_folder(sweep, run)
+      one%folder = output_folder(sweep%command)//'/'//sweep%plan%folders(run)%s
       do i = 1, size(sweep%plan%names)
          call append_string(one%settings, sweep%plan%names(i)%s//'='//sweep%plan%texts(i, run)%s)
       end do
    end subroutine make_command
-
-   pure function run_folder(sweep, run) result(folder)
-      class(sweep_t), intent(in) :: sweep
-      integer(ip), intent(in) :: run
-      character(len=:), allocatable :: folder
-
-      folder = output_folder(sweep%command)//'/'//sweep%plan%folders(run)%s
-   end function run_folder
 
    !> How the runs ended, and their summaries. status: STATUS_FILE.
    subroutine collect(sweep, runs, status)
@@ -252,7 +244,7 @@ contains
          runs(i)%factorisations = int(sweep%shared(sweep%plan%n_runs + i), ip)
          runs(i)%is_written = sweep%shared(2*sweep%plan%n_runs + i) > 0
          runs(i)%is_whole = sweep%shared(2*sweep%plan%n_runs + i) > 1
-         if (is_ok(status)) call read_summary(run_folder(sweep, i), runs(i), status)
+         if (is_ok(status)) call read_summary(output_folder(sweep%command)//'/'//runs(i)%folder, runs(i), status)
       end do
    end subroutine collect
 

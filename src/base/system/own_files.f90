@@ -316,7 +316,7 @@ contains
 
    ! Decks as they were run that an older atrito wrote: they do not say so, but the listing beside them has their digest, in which the
    ! copies of meshes are counted, too.
-   
+
    !> The name of the deck of which a file is a copy, by the file's name: 'a' of 'a.run.inp', 'a.run.msh' and 'a.run-2.msh'; ''
    !> where it has another form.
    pure function deck_of_copy(name) result(deck)

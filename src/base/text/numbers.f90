@@ -296,6 +296,4 @@ contains
       end if
    end subroutine read_integer
 
-
-
 end module atrito_numbers

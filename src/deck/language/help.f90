@@ -6,7 +6,7 @@ module atrito_help
    use atrito_keyword_table, only: keyword_table, find_keyword, packed
    use atrito_keyword_text, only: form_text, option_text_of, choices_text, lines_text, condition_text, &
                                   with_dimension, item_meaning, LEVEL_TEXTS
-   use atrito_strings, only: string_t, append_string, upper_case, recoded
+   use atrito_strings, only: break_line, string_t, append_string, upper_case, recoded
    implicit none (type, external)
    private
    public :: help_overview, help_keyword, help_manual
@@ -285,16 +285,13 @@ contains
    subroutine append_wrapped(lines, margin, text)
       type(string_t), allocatable, intent(inout) :: lines(:)
       character(len=*), intent(in) :: margin, text
-      integer :: first, last, room
+      integer :: first, last, next
 
-      room = WIDTH - len(margin)
       first = 1
-      do while (first <= len(text))
-         last = len(text)
-         if (last - first + 1 > room) last = first - 1 + index(text(first:first + room), ' ', back=.true.)
-         if (last < first) last = min(len(text), first + room - 1)       ! a word longer than the line
-         call append_string(lines, margin//trim(text(first:last)))
-         first = last + 1
+      do while (first <= len_trim(text))
+         call break_line(trim(text), WIDTH - len(margin), first, last, next)
+         call append_string(lines, margin//text(first:last))
+         first = next
       end do
    end subroutine append_wrapped
 

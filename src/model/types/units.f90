@@ -87,6 +87,4 @@ contains
       end do
    end function in_units
 
-
-
 end module atrito_units

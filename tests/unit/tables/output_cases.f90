@@ -108,6 +108,10 @@ contains
       type(results_t), intent(in) :: results
 
       history%frames = [results]
+      allocate (history%rows(0))
+      history%iterations = results%iterations
+      history%iterations%step = results%step
+      history%iterations%increment = results%increment
    end function one_frame
 
    !> Two bodies, the second with what is rounding beside the first and what is not; three joints of the one pair, the last open.
