@@ -96,9 +96,6 @@ contains
       solution%state%a = solution%state%a + way
       call multiply_rows(rows, way, rate)
       where (solution%state%state /= FREE) solution%state%r = solution%state%r + rate
-      ! a row that sees of it what rounding leaves has not stopped it: its gap is known to so much
-      if (.not. allocated(solution%round_off)) allocate (solution%round_off(rows%n), source=0.0_wp)
-      where (abs(rate) <= sqrt(LEAST_SEEN)*maxval(abs(rate))) solution%round_off = solution%round_off + abs(rate)
       solution%has_settled = .true.
    end subroutine take_least
 

@@ -111,7 +111,8 @@ contains
       call prove_in_own_axes(longer%fem, longer%rows, longer%line, longer%f, certificate)
       if (certificate%verdict == BALANCE_IMPOSSIBLE) return
       text = 'no forces at the points of this mesh balance the loads, but forces at the ends of masters between nodes of the '// &
-             'slave may, as at ('//to_text(places(1, 1), 6)//', '//to_text(places(2, 1), 6)//'): it takes a node of the slave there'
+             'slave may, as at ('//to_text(places(1, 1), 6)//', '//to_text(places(2, 1), 6)//'): it takes a node of the slave '// &
+             'there, or the other surface as the slave'
    end subroutine look_at_ends
 
    function knowledge(certificate) result(text)
