@@ -14,6 +14,10 @@
 !> there; where none does, the row at a bound whose multiplier y - A' lambda has the wrong sign is let go. The objective falls at
 !> every step, so it ends.
 !>
+!> What the ground takes at a held dof is no contact force, and costs nothing. Neither does it where a node is held along a
+!> direction that is no axis, by a row of its own: such a row takes no part, nor does what other rows do along its direction
+!> (leave_out), so that the answer does not hang on the axes of the deck. Its force is what balances in the end (balance_supports).
+!>
 !> Components that share no dof are solved each by itself (atrito_constraint_rows), small ones by a singular value decomposition,
 !> larger ones by conjugate gradients on the normal equations. A row is shared where a part of the null space of A touches it:
 !> where it can change with A y as it is (`find_shared`).
@@ -48,7 +52,7 @@ contains
    !> unique.
    !>
    !>     1. list_components     the rows that may depend on each other, in groups that share no dof
-   !>     2. extract_component   A and y of a group, scaled
+   !>     2. extract_component   A and y of a group without its supports, scaled
    !>     3. find_shared         rows that the null space of A touches; none: the forces of the group are unique
    !>     4. shorten             the shortest y with the same A y within the bounds
    !>     5. find_shared again   its rows are those whose force is not unique
@@ -65,8 +69,8 @@ contains
       type(box_state_t), intent(inout) :: state  !< with admissible forces
       logical, allocatable, intent(out) :: is_shared(:) !< (n)
       type(component_t) :: component
-      integer(ip), allocatable :: first(:), member(:)
-      real(wp) :: scale(rows%n)
+      integer(ip), allocatable :: first(:), member(:), own(:), supports(:)
+      real(wp) :: scale(rows%n), before(rows%n)
       integer(ip) :: i
       logical, allocatable :: shared(:)
 
@@ -75,27 +79,77 @@ contains
       if (size(first) <= 1) return
       scale = sqrt(weight)
       do i = 1, size(first, kind=ip) - 1
-         associate (own => member(first(i):first(i + 1) - 1))
-            ! before and after: what is shared may be at a bound first and between its bounds then
-            call extract_component(rows, own, scale, bounds, state%q, component)
-            call find_shared(component, shared)
-            if (.not. any(shared)) cycle
-            call shorten(component)
-            call find_shared(component, shared)
-            state%q(own) = component%y*scale(own)
-            is_shared(own) = shared
-         end associate
+         call part_supports(rows, member(first(i):first(i + 1) - 1), own, supports)
+         if (size(own) == 0) cycle
+         ! before and after: what is shared may be at a bound first and between its bounds then
+         call extract_component(rows, own, supports, scale, bounds, state%q, component)
+         call find_shared(component, shared)
+         if (.not. any(shared)) cycle
+         call shorten(component)
+         call find_shared(component, shared)
+         before = state%q
+         state%q(own) = component%y*scale(own)
+         call balance_supports(rows, own, supports, before, state%q)
+         is_shared(own) = shared
       end do
       where (is_shared .and. state%q > bounds%lower .and. state%q < bounds%upper) state%state = FREE
    end subroutine find_least_forces
+
+   !> Rows of a component, and its supports: rows over the dofs of one node that share none with another such row.
+   pure subroutine part_supports(rows, member, own, supports)
+      type(constraint_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: member(:)
+      integer(ip), allocatable, intent(out) :: own(:), supports(:)
+      logical :: is_support(size(member))
+      integer(ip), allocatable :: taken(:)
+      integer(ip) :: i, e
+
+      is_support = .false.
+      allocate (taken(0))
+      if (allocated(rows%to_ground)) then
+         do i = 1, size(member, kind=ip)
+            if (.not. rows%to_ground(member(i))) cycle
+            associate (dofs => rows%column(rows%first(member(i)):rows%first(member(i) + 1) - 1))
+               is_support(i) = all([(all(taken /= dofs(e)), e=1, size(dofs, kind=ip))])
+               if (is_support(i)) taken = [taken, dofs]
+            end associate
+         end do
+      end if
+      own = pack(member,.not. is_support)
+      supports = pack(member, is_support)
+   end subroutine part_supports
+
+   !> The forces of supports when other forces of their nodes have changed: B' q along their directions stays as it is.
+   pure subroutine balance_supports(rows, own, supports, before, q)
+      type(constraint_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: own(:), supports(:)
+      real(wp), intent(in) :: before(:)          !< (n) forces before the change [F]
+      real(wp), intent(inout) :: q(:)            !< (n) those of the supports change [F]
+      real(wp) :: added(rows%n_columns)
+      integer(ip) :: i, e
+
+      if (size(supports) == 0) return
+      added = 0.0_wp
+      do i = 1, size(own, kind=ip)
+         do e = rows%first(own(i)), rows%first(own(i) + 1) - 1
+            added(rows%column(e)) = added(rows%column(e)) + rows%value(e)*(q(own(i)) - before(own(i)))
+         end do
+      end do
+      do i = 1, size(supports, kind=ip)
+         associate (from => rows%first(supports(i)), to => rows%first(supports(i) + 1) - 1)
+            q(supports(i)) = q(supports(i)) - dot_product(rows%value(from:to), added(rows%column(from:to))) &
+                             /sum(rows%value(from:to)**2)
+         end associate
+      end do
+   end subroutine balance_supports
 
    !> Rows of a component in its own numbers.
    !>
    !> Rows of A' = W^1/2 B: entry (i, dof) is sqrt(w_i) B_i,dof. Dofs are numbered from 1 in ascending order, bounds are those of y
    !> = q/sqrt(w); a bound that is none, HUGE_REAL, must stay one when it is divided.
-   subroutine extract_component(rows, own, scale, bounds, q, component)
+   subroutine extract_component(rows, own, supports, scale, bounds, q, component)
       type(constraint_rows_t), intent(in) :: rows
-      integer(ip), intent(in) :: own(:)
+      integer(ip), intent(in) :: own(:), supports(:)
       real(wp), intent(in) :: scale(:), q(:)
       type(box_bounds_t), intent(in) :: bounds
       type(component_t), intent(out) :: component
@@ -113,17 +167,47 @@ contains
             component%value(at:component%first(i + 1) - 1) = rows%value(from:to)*scale(own(i))
          end associate
       end do
-      dofs = int(each_once(component%column), lp)
+      dofs = int(each_once([component%column, (rows%column(rows%first(supports(i)):rows%first(supports(i) + 1) - 1), &
+                                               i=1, size(supports, kind=ip))]), lp)
       do k = 1, n
          component%column(k) = first_at_least(dofs, int(component%column(k), lp))
       end do
       component%k = size(dofs, kind=ip)
+      call leave_out(rows, supports, dofs, component)
       call scale_columns(component)
       component%y = q(own)/scale(own)
       ! no bound stays none
       component%lower = max(bounds%lower(own), -0.5_wp*huge(1.0_wp)*min(scale(own), 1.0_wp))/scale(own)
       component%upper = min(bounds%upper(own), 0.5_wp*huge(1.0_wp)*min(scale(own), 1.0_wp))/scale(own)
    end subroutine extract_component
+
+   !> Leaves out what the rows do along supports: of a node that is held along d, the part across it, (-d2, d1), is one dof, and
+   !> there is none of a node with one free dof.
+   subroutine leave_out(rows, supports, dofs, component)
+      type(constraint_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: supports(:)
+      integer(lp), intent(in) :: dofs(:)         !< columns of rows, ascending
+      type(component_t), intent(inout) :: component
+      real(wp) :: part(component%k), d(2)
+      integer(ip) :: to(component%k), at(2), i, k, n
+
+      if (size(supports) == 0) return
+      part = 1.0_wp
+      to = [(k, k=1, component%k)]
+      do i = 1, size(supports, kind=ip)
+         associate (first => rows%first(supports(i)))
+            n = rows%first(supports(i) + 1) - first
+            at(:n) = [(first_at_least(dofs, int(rows%column(first + k - 1), lp)), k=1, n)]
+            part(at(1)) = 0.0_wp
+            if (n == 1) cycle
+            d = rows%value(first:first + 1)/norm2(rows%value(first:first + 1))
+            part(at) = [-d(2), d(1)]
+            to(at(2)) = at(1)
+         end associate
+      end do
+      component%value = component%value*part(component%column)
+      component%column = to(component%column)
+   end subroutine leave_out
 
    !> Each dof's entries to length one: the same A y, better conditioned.
    !>

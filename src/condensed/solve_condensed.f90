@@ -100,7 +100,10 @@ contains
       call solve_line(problem, controls, qp, b, solution, status)
       call stop_phase('iterate')
       if (.not. is_ok(status)) call explain_failure(problem, qp, solution, status)
-      if (allocated(solution%p)) solution%round_off = [(row_round_off(qp, solution%state, i), i=1, qp%m)]
+      if (allocated(solution%p)) then
+         solution%round_off = [(row_round_off(qp, solution%state, i), i=1, qp%m)]
+         solution%flexibility = [(qp%c(i, i), i=1, qp%m)]
+      end if
       call move_alloc(qp, problem%flexibility)
       if (allocated(solution%p)) call expand_solution(problem, controls, store, scene, solution, u)
       solution%factorisations = factorisations

@@ -21,7 +21,7 @@ module atrito_sliding_motions
    use atrito_element_table, only: MOST_SIDES
    use atrito_faces, only: face_list_t
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
-   use atrito_master, only: master_t
+   use atrito_master, only: look_along, master_t
    use atrito_mesh, only: mesh_t, face_nodes
    use atrito_pieces, only: place_at, normal_at
    use atrito_points, only: contact_points_t, sliding_t
@@ -51,7 +51,7 @@ module atrito_sliding_motions
 
 contains
 
-   !> The chords of the faces that take part: those of the slave that are not left out, and those that its points see.
+   !> The chords of the faces that take part: those of the slave that are not left out, and those that they see (faces_seen).
    !> The grain is that of the mesh or of these nodes alone, whichever is coarser; faces as short as ten grains tell
    !> that the nodes were not rounded to it.
    pure subroutine list_chords(mesh, slave, faces, master, points, grain, chords)
@@ -67,8 +67,7 @@ contains
 
       i = 3*(slave%n + master%n)
       allocate (chords%place(2, i), chords%normal(2, i), chords%length(i), chords%of_slave(i))
-      is_seen = .false.
-      is_seen(pack(points%piece, points%piece > 0)) = .true.
+      is_seen = faces_seen(mesh, slave, master, points)
       ! nodes about the origin may have few digits, since the others have not many more
       chords%grain = max(grain, printed_grain(reshape([mesh%x(:, points%entry), &
                                                        master%a(:, pack([(i, i=1, master%n)], is_seen))], &
@@ -92,6 +91,47 @@ contains
       ! nodes on a lattice, as of whole numbers: a mesh of faces as short as their last digit was not rounded to it
       if (any(chords%length < LATTICE*chords%grain)) chords%grain = EPS_MACH*maxval(abs(chords%place))
    end subroutine list_chords
+
+   !> The faces of the master that the slave's see from two places inside of each. Of a node of both sides it would be round-off, or
+   !> the order of the faces, which of two it sees; what is seen from nodes counts where nothing else does.
+   pure function faces_seen(mesh, slave, master, points) result(is_seen)
+      type(mesh_t), intent(in) :: mesh
+      type(face_list_t), intent(in) :: slave
+      type(master_t), intent(in) :: master
+      type(contact_points_t), intent(in) :: points  !< of the pair
+      logical :: is_seen(master%n)
+      real(wp), parameter :: INSIDE(2) = [0.5_wp - sqrt(1.0_wp/12), 0.5_wp + sqrt(1.0_wp/12)]
+      real(wp) :: d(2)
+      integer(ip) :: i, k, used, seen
+
+      is_seen = .false.
+      used = 1
+      do i = 1, slave%n
+         if (used > size(points%faces)) exit
+         if (points%faces(used) /= int(slave%element(i), lp)*MOST_SIDES + slave%face(i)) cycle
+         used = used + 1
+         associate (x => mesh%x(:, face_nodes(mesh, slave%element(i), slave%face(i))))
+            d = x(:, 2) - x(:, 1)
+            do k = 1, 2
+               seen = sees(x(:, 1) + INSIDE(k)*d)
+               if (seen > 0) is_seen(seen) = .true.
+            end do
+         end associate
+      end do
+      if (.not. any(is_seen)) is_seen(pack(points%piece, points%piece > 0)) = .true.
+
+   contains
+
+      !> The piece that is met across the chord; 0: none.
+      pure integer(ip) function sees(x)
+         real(wp), intent(in) :: x(2)               !< [L]
+
+         associate (sight => look_along(x, [d(2), -d(1)]/norm2(d), 2*norm2(d), master))
+            sees = sight%piece
+         end associate
+      end function sees
+
+   end function faces_seen
 
    !> One chord of a straight face, two of a bent one.
    pure subroutine add_face(x, of_slave, chords)

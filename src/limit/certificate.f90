@@ -304,7 +304,8 @@ contains
    !>     handed_on = the same with the larger of the two: a light body hands on the weight of a heavy one to what carries it
    !>
    !> proven where excess > CLEAR of the work of all loads, > MANY_TIMES taken, and > SOME_TIMES handed_on. A bilateral row may pull
-   !> and push, so |N_k v| counts.
+   !> and push, so |N_k v| counts. What a row sees of a motion is known to the digits of the deck (rows%doubt): a resistance within
+   !> them is one of no MANY_TIMES, but counts in handed_on.
    subroutine motion_excess(rows, line, body_force, v, excess, proven)
       type(motion_rows_t), intent(in) :: rows    !< G, and the work of the loads on each motion
       type(contact_line_t), intent(in) :: line   !< points, weights, laws and averages are read
@@ -313,12 +314,15 @@ contains
       real(wp), intent(out) :: excess            !< [F L]
       logical, intent(out) :: proven             !< no forces can balance the loads
       real(wp) :: rate(rows%n), terms(rows%n), by_friction(line%n), known_work, work_size, taken, handed_on, resisted
+      real(wp) :: unsure(rows%n), rubbed(line%n)    ! by digits: rates, and of friction
       integer(ip) :: i
 
       call multiply_rows(rows, v, rate, terms)
       call friction_work(line, rate, by_friction, known_work)
       excess = dot_product(rows%work, v) - known_work
       work_size = dot_product(rows%work_size, abs(v)) + known_work
+      unsure = rates_of_digits(rows, v)
+      call friction_work(line, unsure, rubbed)
       taken = 0.0_wp
       handed_on = 0.0_wp
       do i = 1, rows%n
@@ -328,7 +332,7 @@ contains
          if (resisted <= ROUND_OFF*(terms(i) + by_friction(line%point(i)))) cycle
          if (rows%first(i + 1) > rows%first(i)) then
             associate (forces => body_force(rows%column(rows%first(i):rows%first(i + 1) - 1)))
-               taken = taken + resisted*minval(forces)
+               if (resisted > unsure(i) + rubbed(line%point(i))) taken = taken + resisted*minval(forces)
                handed_on = handed_on + resisted*maxval(forces)
             end associate
          else
@@ -338,29 +342,44 @@ contains
       proven = excess > CLEAR*work_size .and. excess > MANY_TIMES*taken .and. excess > SOME_TIMES*handed_on
    end subroutine motion_excess
 
+   !> What the digits of the deck may make each row see of a motion.
+   pure function rates_of_digits(rows, v) result(unsure)
+      type(motion_rows_t), intent(in) :: rows
+      real(wp), intent(in) :: v(:)
+      real(wp) :: unsure(rows%n)
+      integer(ip) :: i
+
+      unsure = 0.0_wp
+      if (.not. allocated(rows%doubt)) return
+      do i = 1, rows%n
+         unsure(i) = rows%doubt(i)*sum(abs(v(rows%column(rows%first(i):rows%first(i + 1) - 1))))
+      end do
+   end function rates_of_digits
+
    !> What a unit of each pressure force takes by friction, at its own point and where it is averaged; and what known ones take.
    pure subroutine friction_work(line, rate, by_friction, known_work)
       type(contact_line_t), intent(in) :: line   !< points, weights, laws and averages are read
       real(wp), intent(in) :: rate(:)            !< (m) G v [L]
       real(wp), intent(out) :: by_friction(:)    !< (n) [L]
-      real(wp), intent(out) :: known_work        !< [F L]
-      real(wp) :: p(line%n), nothing(size(rate))
+      real(wp), intent(out), optional :: known_work !< [F L]
+      real(wp) :: p(line%n), nothing(size(rate)), known
       integer(ip) :: j, e
 
       nothing = 0.0_wp
       p = pressure_of(line, nothing)
       by_friction = 0.0_wp
-      known_work = 0.0_wp
+      known = 0.0_wp
       do j = 1, line%n
          if (line%tangential(j) == 0) cycle
          do e = line%average%first(j), line%average%first(j + 1) - 1
             associate (k => line%average%column(e), &
                        rubbed => line%weight(j)*line%law(j)%nu*line%average%value(e)*abs(rate(line%tangential(j))))
                by_friction(k) = by_friction(k) + rubbed/line%weight(k)
-               known_work = known_work + rubbed*p(k)
+               known = known + rubbed*p(k)
             end associate
          end do
       end do
+      if (present(known_work)) known_work = known
    end subroutine friction_work
 
    !> Whether forces are admissible and leave nothing on the motions of some bodies, but for round-off of what is added up.

@@ -6,7 +6,7 @@
 !> rows. Which of them are added to the displacements is asked in atrito_least_motions.
 module atrito_idle_motions
    use atrito_bodies, only: simplest_motion
-   use atrito_bound_qp, only: FREE, AT_LOWER, FROZEN
+   use atrito_bound_qp, only: FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_certificate, only: certificate_t, BALANCE_IMPOSSIBLE
    use atrito_contact_line, only: friction_bound, rest_of
    use atrito_contact_rows, only: row_value
@@ -18,11 +18,11 @@ module atrito_idle_motions
    use atrito_joined_sets, only: find_lowest, join_sets
    use atrito_kinds, only: ip, wp
    use atrito_least_motions, only: measure_motions, take_least
-   use atrito_load_digits, only: place_doubt, is_within_digits, take_out
+   use atrito_load_digits, only: is_within_digits, take_out
    use atrito_motion_rows, only: motion_rows_t, build_motion_rows
    use atrito_own_axes, only: prove_in_own_axes
    use atrito_scene_data, only: scene_data_t
-   use atrito_sparse_rows, only: multiply_rows, transposed_sizes
+   use atrito_sparse_rows, only: add_transposed, multiply_rows, transposed_sizes
    implicit none (type, external)
    private
    public :: settle_idle_motions, stop_slow_motion
@@ -45,7 +45,8 @@ contains
    !> digits of the deck make of the loads, that is taken out of data%f, and the increment is to be solved again.
    !>
    !>     1. rows that hold: closed, sticking or bilateral, with a force or a bound above zero (is_holding)
-   !>     2. bodies joined by such rows are a group (join_motions), whose idle motions are the null space of its rows (find_idle)
+   !>     2. bodies joined by such rows are a group (join_motions), whose idle motions are the null space of its rows (find_idle);
+   !>        a point that sticks with its bound holds nothing that makes it slip on (let_slip_on)
    !>     3. loads, and then forces, that are no more than the digits of the deck make of others are taken out (doubt_loads,
    !>        doubt_small_forces): 2 once more, or the increment once more
    !>     4. closed points without a force count as open, sticking ones without a bound as without friction
@@ -82,6 +83,7 @@ contains
       if (may_change .and. .not. again) call doubt_loads(data, rows, group, idle, holds, tau, solution, again)
       if (again) return
       call doubt_small_forces()
+      call let_slip_on(data, rows, group, tau, holds, idle, solution)
       if (allocated(solution%inner%undetermined) .and. all(members_of(group) <= MOST_MOTIONS)) then
          deallocate (solution%inner%undetermined)
       end if
@@ -151,6 +153,40 @@ contains
 
    end subroutine settle_idle_motions
 
+   !> Points that stick with a shear that is their bound, but for what balances leave, slip in a motion that takes all of them
+   !> onward and on which the loads do no work. Whether they stick or slip there is a matter of round-off.
+   subroutine let_slip_on(data, rows, group, tau, holds, idle, solution)
+      type(scene_data_t), intent(in) :: data
+      type(motion_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: group(:)           !< (k)
+      real(wp), intent(in) :: tau(:)                !< friction bounds at the points [F/L^2]
+      logical, intent(inout) :: holds(:)            !< (m) without these points
+      real(wp), allocatable, intent(inout) :: idle(:, :) !< (k, motions) with those that they held
+      type(contact_solution_t), intent(inout) :: solution !< states of these points
+      real(wp) :: sense(rows%n), rate(rows%n), onward(rows%n_columns), forces(rows%n_columns)
+      real(wp), allocatable :: more(:, :)
+      integer(ip) :: i
+
+      associate (line => data%line, q => solution%state%q)
+         sense = [(merge(sign(1.0_wp, q(i)), 0.0_wp, holds(i) .and. line%tangential(line%point(i)) == i .and. abs(q(i)) &
+                         >= (1 - MOST_DOUBT)*tau(line%point(i))*line%weight(line%point(i))), i=1, rows%n)]
+         if (.not. any(abs(sense) > 0.0_wp)) return
+         call find_idle(rows, holds .and. abs(sense) <= 0.0_wp, group, more)
+         if (size(more, 2) <= size(idle, 2)) return
+         onward = 0.0_wp
+         call add_transposed(rows, 1.0_wp, sense, onward)
+         onward = matmul(more, matmul(onward, more))
+         call multiply_rows(rows, onward, rate)
+         forces = rows%work_size + transposed_sizes(rows, q)
+      end associate
+      if (minval(rate*sense) < -NO_FORCE*maxval(abs(rate)) .or. maxval(rate*sense) <= NO_FORCE*maxval(abs(rate))) return
+      if (abs(dot_product(onward, rows%work)) > BALANCED*dot_product(abs(onward), forces)) return
+      call move_alloc(more, idle)
+      holds = holds .and. abs(sense) <= 0.0_wp
+      where (sense > 0.0_wp) solution%state%state = AT_UPPER
+      where (sense < 0.0_wp) solution%state%state = AT_LOWER
+   end subroutine let_slip_on
+
    !> Whether an unknown holds a motion: it takes a force, or would take one of either sign.
    pure logical function is_holding(data, solution, tau, i)
       type(scene_data_t), intent(in) :: data
@@ -177,7 +213,7 @@ contains
       if (.not. (allocated(solution%inner%motion) .and. allocated(solution%state%q))) return
       call build_motion_rows(data%fem, data%rows, data%line, data%f, rows)
       if (size(solution%inner%motion) /= rows%n_columns .or. size(solution%state%q) /= rows%n) return
-      if (.not. any(place_doubt(data) > 0.0_wp)) return
+      if (.not. any(rows%doubt > 0.0_wp)) return
       associate (v => solution%inner%motion)
          if (.not. sum(v**2) > 0.0_wp) return
          if (.not. is_within_digits(data, rows, v, merge(0.0_wp, solution%state%q, data%line%has_friction))) return
@@ -253,23 +289,22 @@ contains
       real(wp), intent(in) :: tau(:)                !< friction bounds at the points [F/L^2]
       type(contact_solution_t), intent(in) :: solution
       logical, intent(out) :: has_changed
-      real(wp) :: largest(rows%n), doubt(rows%n), force
+      real(wp) :: largest(rows%n), force
       logical :: is_sure(rows%n), is_due            ! larger forces than those that are dropped in any case
       real(wp), allocatable :: more(:, :)
       integer(ip) :: i
 
       has_changed = .false.
-      doubt = place_doubt(data)
-      if (.not. any(doubt > 0.0_wp)) return
+      if (.not. any(rows%doubt > 0.0_wp)) return
       largest = largest_forces(rows, solution%state%q)
       is_sure = holds
       is_due = .false.
       do i = 1, rows%n
-         if (.not. (holds(i) .and. doubt(i) > 0.0_wp) .or. rows%first(i + 1) == rows%first(i)) cycle
+         if (.not. (holds(i) .and. rows%doubt(i) > 0.0_wp) .or. rows%first(i + 1) == rows%first(i)) cycle
          associate (j => data%line%point(i), most => largest(i))
             force = abs(solution%state%q(i))
             if (data%line%tangential(j) == i) force = tau(j)*data%line%weight(j) ! what friction there may hold
-            is_sure(i) = force > doubt(i)*most
+            is_sure(i) = force > rows%doubt(i)*most
             ! what is dropped is felt by supports along directions of their own, and by friction
             is_due = is_due .or. (.not. is_sure(i) .and. force > merge(NO_FORCE, dropped_part(data, i), data%line%n_bilateral > 0 &
                                                                        .or. data%line%law(j)%kind /= FRICTION_NONE)*most)

@@ -15,52 +15,17 @@ module atrito_load_digits
    use atrito_dense, only: solve_lu
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: face_nodes
-   use atrito_motion_rows, only: motion_rows_t
+   use atrito_motion_rows, only: motion_rows_t, digits_of_deck, GRAINS, MOST_PART
    use atrito_row_entries, only: first_motions, modes_at_node
    use atrito_scene_data, only: scene_data_t, reload
-   use atrito_sliding_motions, only: printed_grain
    use atrito_sparse_rows, only: transposed_sizes
    implicit none (type, external)
    private
-   public :: place_doubt, is_within_digits, take_out
+   public :: is_within_digits, take_out
 
-   real(wp), parameter :: GRAINS = 5.0_wp           !< by which the place of a force may be off
-   real(wp), parameter :: EXACT = 1.0e-14_wp        !< grain over coordinates of a deck that is not rounded to digits
-   real(wp), parameter :: LATTICE = 10.0_wp         !< length of a point in grains, of nodes that were not rounded
-   real(wp), parameter :: MOST_PART = 2.5e-3_wp    !< a larger part of the forces was meant, whatever the digits
    real(wp), parameter :: ALONG_AXIS = 1.0e-12_wp   !< part of a normal
 
 contains
-
-   !> Of each unknown force, the part of the largest one that the digits may make; 0: none, as of joints.
-   function place_doubt(data) result(doubt)
-      type(scene_data_t), intent(in) :: data !< mesh, contact line and reach of its points are read
-      real(wp) :: doubt(size(data%line%point)), grain
-      integer(ip) :: i
-
-      doubt = 0.0_wp
-      grain = digits_of_deck(data)
-      if (.not. grain > 0.0_wp) return
-      do i = 1, size(doubt, kind=ip)
-         associate (j => data%line%point(i))
-            if (j > data%line%n - data%line%n_bilateral) cycle
-            doubt(i) = min(GRAINS*grain/data%rows%reach(j), MOST_PART)
-         end associate
-      end do
-   end function place_doubt
-
-   !> Half a unit of the last digit of the coordinates [L]; 0: they are not rounded.
-   real(wp) function digits_of_deck(data) result(grain)
-      type(scene_data_t), intent(in) :: data
-
-      grain = 0.0_wp
-      associate (n => data%rows%n - data%rows%n_bilateral)
-         if (n == 0) return
-         grain = printed_grain(data%fem%mesh%x)
-         if (grain <= EXACT*maxval(abs(data%fem%mesh%x))) grain = 0.0_wp
-         if (any(data%rows%reach(:n) < LATTICE*grain)) grain = 0.0_wp
-      end associate
-   end function digits_of_deck
 
    !> Whether the loads work no more on a motion than the digits make.
    logical function is_within_digits(data, rows, v, q)
@@ -105,7 +70,7 @@ contains
             most = most + MOST_PART*maxval([0.0_wp, own])*sum(abs(v(first(b):first(b + 1) - 1)))
          end associate
       end do
-      allowed = min(GRAINS*digits_of_deck(data)*allowed, most)
+      allowed = min(GRAINS*digits_of_deck(data%fem, data%rows)*allowed, most)
       is_within_digits = abs(dot_product(v, rows%work)) <= allowed
 
    contains

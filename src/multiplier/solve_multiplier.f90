@@ -59,6 +59,7 @@ contains
       end if
       if (system%failed > 0) call name_failure()
       if (.not. allocated(x)) return
+      solution%flexibility = system%flexibility
       u = problem%value
       call displacements_of(problem%fem, system, x, u)
 

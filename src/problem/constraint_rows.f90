@@ -25,6 +25,7 @@ module atrito_constraint_rows
    !> B: rows of unknown forces, columns of dofs.
    type, extends(sparse_rows_t) :: constraint_rows_t
       integer(ip), allocatable :: point(:)       !< (n) 1.., the point of each row: one or two rows have the same
+      logical, allocatable :: to_ground(:)       !< (n) a joint of one node, as a support along its own axis; left out: none
    end type constraint_rows_t
 
    !> Who touches the dofs: the number of points, and the sum of their numbers, which names the last one.

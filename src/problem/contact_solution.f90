@@ -39,6 +39,7 @@ module atrito_contact_solution
       real(wp), allocatable :: p(:), tau(:), t(:)     !< at the points [F/L^2]; tau is the bound that was used
       type(multiplier_t), allocatable :: multipliers  !< of the sparse form, where a next increment goes on from them
       real(wp), allocatable :: body_motion(:), body_force(:) !< (bodies) largest displacement [L] and force at a node [F]
+      real(wp), allocatable :: flexibility(:)         !< (unknowns) of its row by itself, without its law [L/F]
       real(wp), allocatable :: round_off(:)           !< (unknowns) of r, where it is known by its terms [L]
       logical :: has_settled = .false.                !< an idle motion was made least: r is known to rounding of the way
       integer :: form = 0                             !< CONTACT_*, that it was found by

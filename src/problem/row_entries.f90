@@ -46,6 +46,8 @@ contains
       constraints%n = size(line%point, kind=ip)
       constraints%n_columns = first_motion(fem%bodies%n + 1) - 1
       constraints%point = line%point
+      constraints%to_ground = line%point > line%n - line%n_bilateral .and. &
+                              rows%first(line%point + 1) - rows%first(line%point) == 1
       n = 0
       do i = 1, constraints%n
          associate (entries => rows%first(line%point(i) + 1) - rows%first(line%point(i)))
@@ -60,6 +62,7 @@ contains
          at = at + n
          call motions_of_row(fem, rows, line, i, first_motion, n, constraints%column(at:), constraints%value(at:), &
                              rigid_only=.not. with_motions)
+         constraints%to_ground(i) = constraints%to_ground(i) .and. n == 0
          constraints%first(i + 1) = at + n
       end do
       n = constraints%first(constraints%n + 1) - 1

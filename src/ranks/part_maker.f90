@@ -209,6 +209,7 @@ contains
       own%n = size(row, kind=ip)
       own%n_columns = n
       own%point = constraints%point(row)
+      own%to_ground = constraints%to_ground(row)
       allocate (own%first(own%n + 1), source=1_ip)
       do i = 1, own%n
          own%first(i + 1) = own%first(i) + constraints%first(row(i) + 1) - constraints%first(row(i))

@@ -294,7 +294,7 @@ contains
       end if
       tau = friction_bound(line, p)
       call find_uncertain_displacements(results%u, of_node, growth, had, uncertain)
-      call check_bilateral_rows(rows, line, uncertain, condition, results, rows_hold)
+      call check_bilateral_rows(rows, line, uncertain, condition, round_off, results, rows_hold)
       if (.not. rows_hold) return
       last = 0
       do j = 1, line%n - line%n_bilateral
@@ -319,11 +319,12 @@ contains
    end subroutine check_law
 
    !> Every bilateral row with the final displacements: vector . u = value + compliance q, within what round-off leaves open.
-   subroutine check_bilateral_rows(rows, line, uncertain, condition, results, holds)
+   subroutine check_bilateral_rows(rows, line, uncertain, condition, round_off, results, holds)
       type(contact_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
       real(wp), intent(in) :: uncertain(:)       !< (n_nodes) [L]
       real(wp), intent(in), optional :: condition !< of the equations of the rows: digits that their forces have lost (W-DIGITS)
+      real(wp), intent(in), optional :: round_off(:) !< (unknowns) of the rows, where the solver knows it [L]
       type(results_t), intent(inout) :: results
       logical, intent(out) :: holds
       real(wp) :: moved, asked, allowed, q, lost
@@ -338,6 +339,7 @@ contains
          asked = rows%gap(j) + line%delta(j)/line%weight(j)*q
          moved = row_value(rows, j, [0.0_wp, 0.0_wp], results%u)
          allowed = ROW_TOLERANCE*(abs(rows%gap(j)) + abs(asked))
+         if (present(round_off) .and. line%normal(j) > 0) allowed = allowed + round_off(line%normal(j))
          do k = rows%first(j), rows%first(j + 1) - 1
             associate (vector => rows%vector(:, k - rows%before_vectors), node => rows%node(k))
                allowed = allowed + sum(abs(vector))*uncertain(node) + lost*sum(abs(vector*results%u(:, node)))

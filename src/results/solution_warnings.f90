@@ -3,12 +3,12 @@ module atrito_solution_warnings
    use atrito_blas_info, only: is_reference_blas
    use atrito_body_motions, only: find_moved_body, motion_text
    use atrito_condensed_body, only: hourglass_text
-   use atrito_contact_line, only: contact_line_t
+   use atrito_contact_line, only: contact_line_t, last_of_pair
    use atrito_contact_rows, only: contact_rows_t
    use atrito_contact_solution, only: contact_solution_t
    use atrito_friction_law, only: FRICTION_NONE
    use atrito_hourglass, only: worst_hourglass
-   use atrito_kinds, only: ip, wp
+   use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_linear_limits, only: warn_of_large
    use atrito_mesh, only: mesh_t
    use atrito_messages, only: add_note, add_warning
@@ -22,6 +22,7 @@ module atrito_solution_warnings
 
    real(wp), parameter :: MANY_DIGITS = 10.0_wp             !< lost digits worth a warning
    real(wp), parameter :: MUCH_LOST = 1.0e8_wp              !< condition of the contact line worth a warning
+   real(wp), parameter :: UNKNOWN_PART = 1.0e-3_wp          !< of the largest pressure of a pair, worth a warning
    real(wp), parameter :: LARGE_FRICTION = 3.0_wp           !< from here on other solutions have been seen
    integer(ip), parameter :: MOST_NAMED = 5                 !< nodes in a note
    real(wp), parameter :: LARGE_HOURGLASS = 1.0_wp          !< as much strain energy as is seen is not
@@ -50,6 +51,7 @@ contains
                                                      //to_text(log10(solution%inner%condition), 3)//' digits of 16: a stiff slave' &
                                                                  //' with more points than its soft master has nodes, or points' &
                                                                  //' that are almost one')
+      call warn_of_last_digits(data, solution, results)
       call warn_of_hourglass(data, results)
       call note_shared_points(data%fem%mesh, data%rows, data%line, solution)
       call warn_of_others(data%model, results)
@@ -69,6 +71,41 @@ contains
       call find_moved_body(data%fem%bodies, solution%inner%undetermined, b, mode)
       text = motion_text(data%fem, b, mode)
    end function idle_text
+
+   !> Pairs whose pressures hang on the last digits of coordinates. An initial distance is a difference of those, and so known to
+   !> EPS_MACH of the largest; a closed point with a flexibility c and a compliance d takes that by a force of EPS_MACH |x|/(c + d).
+   !> A distance that is none is meant as none.
+   subroutine warn_of_last_digits(data, solution, results)
+      type(scene_data_t), intent(in) :: data
+      type(contact_solution_t), intent(in) :: solution
+      type(results_t), intent(in) :: results
+      real(wp) :: off, far
+      integer(ip) :: first, last, j
+
+      if (.not. (allocated(solution%flexibility) .and. allocated(solution%p))) return
+      if (size(solution%flexibility) /= size(data%line%point)) return
+      far = maxval(abs(data%fem%mesh%x))
+      first = 1
+      do while (first <= data%line%n - data%line%n_bilateral)
+         last = last_of_pair(data%line, first)
+         off = 0.0_wp
+         do j = first, last
+            associate (i => data%line%normal(j), gap => data%rows%gap(j))
+               if (i == 0 .or. .not. (solution%p(j) > 0.0_wp .and. abs(gap) > 0.0_wp)) cycle
+               off = max(off, EPS_MACH*far/(solution%flexibility(i) + solution%bounds%d(i))/data%line%weight(j))
+            end associate
+         end do
+         associate (p => maxval(solution%p(first:last)), pair => results%scene%pairs(data%line%pair(first)))
+            if (off > UNKNOWN_PART*p) then
+               call add_warning('W-DIGITS', pair%slave//' on '//pair%master//': pressures may be off by ' &
+                                //to_text(100*min(off/p, 1.0_wp), 2)//' %: initial distances are differences of coordinates,' &
+                                //' known to '//to_text(EPS_MACH*far, 2)//' [L], and a pressure of '//to_text(off, 2) &
+                                //' [F/L^2] closes as much')
+            end if
+         end associate
+         first = last + 1
+      end do
+   end subroutine warn_of_last_digits
 
    !> Elements of reduced integration that contact alone keeps in shape, and rows of them whose displacements are for a good part
    !> what their points do not see.

@@ -61,6 +61,12 @@ class Deck:
         size = max(max(x) - min(x) for x in zip(*places))
         return max(loads + [size_of(row[2])*size for _, _, data in self.each('DSLOAD') for row in data], default=0.0)
 
+    def least_motion(self):
+        """The order of what its loads do to the stiffest body."""
+        modulus = max((abs(float(data[0][0])) for _, _, data in self.each('ELASTIC')), default=0.0)
+        thickness = max((float(data[0][0]) for _, _, data in self.each('SOLID SECTION') if data and data[0][0]), default=1.0)
+        return self.largest_load()/(modulus*thickness) if modulus > 0 else 0.0
+
     def has_friction(self):
         return any(float(data[0][0]) != 0 for _, _, data in self.each('FRICTION'))
 

@@ -26,7 +26,8 @@ done = subprocess.run([{atrito!r}, *sys.argv[1:]], capture_output=True, text=Tru
 text = open(sys.argv[1]).read()
 sys.stdout.write(done.stdout)
 sees = {sees!r} in ' '.join(sys.argv) or {sees!r} in text
-sys.stderr.write(done.stderr.replace('W-IDLE', 'W-OTHER') if sees and {table!r} == 'idle' else done.stderr)
+hidden = {{'idle': 'W-IDLE', 'digits': 'differences of coordinates'}}.get({table!r}, 'nothing of the kind')
+sys.stderr.write(done.stderr.replace(hidden, 'something else') if sees else done.stderr)
 path = os.path.join(sys.argv[sys.argv.index('-o') + 1], {table!r} + '.tab')
 if sees and os.path.exists(path):
     lines = open(path).read().split('\\n')
@@ -41,7 +42,7 @@ if sees and os.path.exists(path):
 sys.exit({code} if sees and {code} else done.returncode)
 '''
 # (seed, number) of scenes whose relations hold; of the last one W-IDLE is told
-SCENES = {'plain': (1, 6), 'history': (1, 52), 'idle': (1, 215)}
+SCENES = {'plain': (1, 6), 'history': (1, 52), 'idle': (1, 215), 'digits': (20290223, 24), 'at rest': (20290601, 72)}
 
 
 def program(atrito, name, sees, table='none', column='', change=1e-6, code=0):
@@ -62,7 +63,8 @@ def relate(atrito, generator, seed, number, which, *options):
 def liars_must_be_caught(atrito, generator):
     all_of_them = ','.join(run_relations.RELATIONS)
     for (seed, number), which in ((SCENES['plain'], all_of_them), (SCENES['history'], all_of_them),
-                                  (SCENES['idle'], 'quarter turn,mirror,threads,banded,dense form')):
+                                  (SCENES['idle'], 'quarter turn,mirror,threads,banded,dense form'),
+                                  (SCENES['digits'], 'mirror'), (SCENES['at rest'], 'turn')):
         code, said = relate(atrito, generator, seed, number, which)
         expect(f'scene {number} of seed {seed} holds: {said}', code == 0)
     for what, sees, table, column, which, scene in (
@@ -70,14 +72,18 @@ def liars_must_be_caught(atrito, generator):
             ('a reaction with --solver', '--solver banded', 'reactions', 'r2', 'banded', 'idle'),
             ('a pressure with --contact', '--contact dense', 'contact', 'pressure', 'dense form', 'idle'),
             ('a weight', '--contact dense', 'contact', 'weight', 'dense form', 'idle'),
-            ('a displacement begun again', '--restart', 'nodes', 'u2', 'restart', 'history')):
-        path = program(atrito, 'liar', sees, table, column)
+            ('a displacement begun again', '--restart', 'nodes', 'u2', 'restart', 'history'),
+            ('a pressure by more than its digits', 'START, 3.385724587', 'contact', 'pressure', 'mirror', 'digits'),
+            ('a displacement of round-off that is none', '*TRANSFORM', 'nodes', 'u1', 'turn', 'at rest')):
+        path = program(atrito, 'liar', sees, table, column, {'digits': 10.0, 'at rest': 1e12}.get(scene, 1e-6))
         code, said = relate(path, generator, *SCENES[scene], which)
         expect(f'{what}: {said[:100]}', code == 1)
     path = program(atrito, 'liar', '--threads', 'stress', 's12')
     expect('a stress', relate(path, generator, 5, 19, 'threads', '--mixed')[0] == 1)
     path = program(atrito, 'quits', '--threads', code=3)
     expect('another exit code', relate(path, generator, *SCENES['plain'], 'threads')[0] == 1)
+    path = program(atrito, 'silent', 'START, 3.385724587', 'digits')
+    expect('digits that are not told', relate(path, generator, *SCENES['digits'], 'mirror')[0] == 1)
     path = program(atrito, 'silent', '--threads', 'idle')
     expect('W-IDLE in one only', relate(path, generator, *SCENES['idle'], 'threads')[0] == 1)
 

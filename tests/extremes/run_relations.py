@@ -6,9 +6,13 @@ Scene K is one of random_scenes, a history of one (histories.py) or a curved one
 turned, mirrored, in other units (of a curved scene with all digits), with other numbers; with every solver, in both forms, with
 two threads; with an empty step behind it, its step in two, and begun again by --restart. Exit codes and W-IDLE must be the same, and
 all numbers of nodes.tab, reactions.tab, stress.tab (its invariants, point by point) and contact.tab to 1e-9 of the largest of their
-column (of a pair in contact.tab), after they were turned back. Where a deck with all digits differs more, or another one by less than 1e-5, it is measured what the digits are
-worth: both decks are run with places that are off by the last digit. If its answer moves by as much, the scene is `loose`, and says nothing. Where friction acts to 1e-7, which is what the outer loop is stopped at, and only where both forms agree so far
-(else there may be several answers). Far from the origin the last digit of a coordinate is more than that of the motions: it is allowed, too. Prints a table by
+column (of a pair in contact.tab), after they were turned back. Where a deck with all digits differs more, or another one by less than 1e-5, or by any part where the program tells that
+pressures hang on the digits of coordinates (W-DIGITS), it is measured what the digits are worth: both decks are run with places that
+are off by the last digit. If its answer moves by as much, the scene is `loose`, and says nothing. Neither does it where one run ends
+with exit 3 and the other has friction that the last digits move by more than 1e-7, which to the program is no solution. Where one ends
+with exit 4 and the other with 3, since it is too near the limit, the places are off by as much as the deck of all digits is. Where
+friction acts to 1e-7, which is what the outer loop is stopped at, and only where both forms agree so far (else there may be several
+answers). Far from the origin the last digit of a coordinate is more than that of the motions: it is allowed, too. Prints a table by
 relation with the largest difference, and what failed; exit code 0 when nothing did.
 """
 
@@ -35,13 +39,14 @@ from scene_reader import read_deck, read_table
 EXACT, WITH_FRICTION = 1e-9, 1e-7
 DIGITS, EPS = 64, 2.0**-52
 NO_FEW_DIGITS = 250.5          # units of the last digit
-LITTLE = 1e-4  # of the largest displacement, of the loads, of pressures: slips, reactions, shears that are much less are measured by it
+LITTLE = 1e-4  # of the largest displacement, of the loads, of what they do to the stiffest body, of pressures: slips, reactions,
+               # displacements, shears that are much less are measured by it
 OTHER_DECKS = {'quarter turn': relations.quarter_turn, 'turn': relations.turn, 'mirror': relations.mirror, 'units': relations.units,
                'renumbered': relations.renumber, 'empty step': relations.empty_step}
 SHAKES = 3                     # decks with other last digits, of one that was turned and differs
 WORTH = 3.0                    # times what they move an answer by, turning it may
 NEW_DIGITS = ('turn', 'units')  # what few digits say of a curve is lost where all its digits are others
-ILL_CONDITIONED = 1e-5         # of other decks a larger difference is no round-off: what hangs on a last digit there is a fault
+ILL_CONDITIONED = 1e-5         # of other decks a larger difference is no round-off: what hangs on a last digit there is a fault, untold
 OTHER_OPTIONS = {'skyline': ['--solver', 'skyline'], 'banded': ['--solver', 'banded'], 'sparse': ['--solver', 'sparse'],
                  'dense form': ['--contact', 'dense'], 'sparse form': ['--contact', 'sparse'], 'threads': ['--threads', '2']}
 RELATIONS = [*OTHER_DECKS, *OTHER_OPTIONS, 'step in two', 'restart']
@@ -54,10 +59,13 @@ class Result:
         self.folder = deck_folder or os.path.join(base, name)
         with open(path, 'w') as file:
             file.write(text)
-        self.path = path
+        self.path, self.text, self.options = path, text, options
         self.code, said, _ = run(settings.atrito, path, self.folder, [*settings.options, *options])
-        self.load = Deck(text).largest_load()
+        deck = Deck(text)
+        self.load, self.least = deck.largest_load(), deck.least_motion()
         self.is_idle = 'W-IDLE' in said
+        self.is_undecided = self.code == 3 and 'too near the limit' in said
+        self.tells_digits = 'differences of coordinates' in said
         self.is_built = 'E-NOT-BUILT' not in said  # supports along axes of their own may do less
         self.tables = {}
         if self.code == 0:
@@ -84,7 +92,7 @@ def largest_difference(first, other, back):
     far = max((np.abs(first.tables['nodes'][c]).max(initial=0.0) for c in 'xy'), default=0.0) if 'nodes' in first.tables else 0.0
     contact = first.tables.get('contact')  # which an overlap makes without any load
     force = 0.0 if contact is None else np.abs(contact['pressure']*contact['weight']).max(initial=0.0)
-    floor = {'reactions': LITTLE*max(first.load, force), 'stress': 0.0, 'contact': max(LITTLE*u, DIGITS*EPS*far/EXACT), 'nodes': 0.0}
+    floor = {'reactions': LITTLE*max(first.load, force), 'stress': 0.0, 'contact': max(LITTLE*u, DIGITS*EPS*far/EXACT), 'nodes': LITTLE*first.least}
     for name, table in first.tables.items():
         if name not in other.tables:
             return math.inf, f'{name}.tab is missing'
@@ -172,7 +180,7 @@ def compare_points(a, b, back, _, floor):
 class Outcome:
     def __init__(self, number):
         self.number, self.kind, self.code, self.found, self.is_one = number, '', None, {}, True
-        self.loose = set()
+        self.loose, self.undecided, self.told = set(), set(), set()
 
 
 def deck_of(settings, number, digits=None):
@@ -210,7 +218,7 @@ def compare_all(settings, outcome, deck, base):
     forms = {}
     for name, options in OTHER_OPTIONS.items():
         if name in settings.relations or (outcome.has_friction and name.endswith('form')):
-            forms[name] = compare(settings, outcome, first, Result(settings, deck.text(), base, 'other', options), Back(), name)
+            forms[name] = compare(settings, outcome, base, first, Result(settings, deck.text(), base, 'other', options), Back(), name)
     if outcome.has_friction:
         outcome.is_one = all(forms[name] <= WITH_FRICTION for name in ('dense form', 'sparse form'))
     exact = Deck(deck_of(settings, outcome.number, digits=17)[1])
@@ -228,15 +236,16 @@ def compare_all(settings, outcome, deck, base):
             mine, its = (exact, all_digits) if name in NEW_DIGITS else (deck, first)
             found = relation(mine, random.Random(f'{settings.seed}-{outcome.number}-{name}'))
             if found:
-                compare(settings, outcome, its, Result(settings, found[0].text(), base, 'other'), found[1], name)
-                if name in outcome.found and not good(outcome, name) and (name in NEW_DIGITS or outcome.found[name][0] < ILL_CONDITIONED):
+                compare(settings, outcome, base, its, Result(settings, found[0].text(), base, 'other'), found[1], name)
+                if name in outcome.found and not good(outcome, name) and (name in NEW_DIGITS or name in outcome.told
+                                                                                   or outcome.found[name][0] < ILL_CONDITIONED):
                     other = relation(exact, random.Random(f'{settings.seed}-{outcome.number}-{name}'))
                     measure_digits(settings, outcome, (exact, other[0]), base, name)
     if 'step in two' in settings.relations:
         found = relations.split_step(deck, None)
         if found:
             one = Result(settings, found[2].text(), base, 'two-increments')
-            compare(settings, outcome, one, Result(settings, found[0].text(), base, 'other'), found[1], 'step in two')
+            compare(settings, outcome, base, one, Result(settings, found[0].text(), base, 'other'), found[1], 'step in two')
     if 'restart' in settings.relations:
         begin_again(settings, outcome, deck, base)
 
@@ -244,14 +253,29 @@ def compare_all(settings, outcome, deck, base):
 def measure_digits(settings, outcome, decks, base, name):
     """What the last digits are worth, where a relation that makes others of them does not hold: of either deck."""
     moved = 0.0
+    digits = NO_FEW_DIGITS if name in outcome.undecided else 1.0  # by which the deck without few digits is off already
     for deck in decks:
         first = Result(settings, deck.text(), base, 'digits')
         for shake in range(SHAKES):
-            other = relations.shaken(deck, random.Random(f'{settings.seed}-{outcome.number}-{name}-{shake}'))
+            other = relations.shaken(deck, random.Random(f'{settings.seed}-{outcome.number}-{name}-{shake}'), digits)
             other = Result(settings, other.text(), base, 'other')
             moved = max(moved, math.inf if first.is_idle != other.is_idle else difference(first, other, Back())[0])
     if outcome.found[name][0] <= WORTH*moved:
         outcome.loose.add(name)
+
+
+def hangs_on_digits(settings, results, base):
+    """Of runs one of which alone has a solution: whether the last digits of places move it by more than the outer loop is stopped at.
+    To the program friction that is less certain is no solution, and whether its loop ends at one is chance."""
+    for result in results:
+        deck, solved = Deck(result.text), []
+        for shake in range(SHAKES):
+            other = relations.shaken(deck, random.Random(f'{settings.seed}-{shake}'))
+            solved.append(Result(settings, other.text(), base, 'shaken', result.options))
+        solved = [one for one in [result, *solved] if one.code == 0]
+        if any(difference(solved[0], one, Back())[0] > WITH_FRICTION for one in solved[1:]):
+            return True
+    return False
 
 
 def begin_again(settings, outcome, deck, base):
@@ -263,7 +287,7 @@ def begin_again(settings, outcome, deck, base):
         return
     kept = os.path.join(base, 'kept.h5')
     shutil.copy(file, kept)
-    compare(settings, outcome, first, Result(settings, whole.text(), base, 'other', ['--restart', kept]), Back(), 'restart')
+    compare(settings, outcome, base, first, Result(settings, whole.text(), base, 'other', ['--restart', kept]), Back(), 'restart')
 
 
 def difference(first, other, back):
@@ -272,7 +296,7 @@ def difference(first, other, back):
     return (0.0, '') if first.code != 0 else largest_difference(first, other, back)
 
 
-def compare(settings, outcome, first, other, back, name):
+def compare(settings, outcome, base, first, other, back, name):
     if name not in RELATIONS or not other.is_built:
         return 0.0
     found = difference(first, other, back)
@@ -280,6 +304,13 @@ def compare(settings, outcome, first, other, back, name):
     if found[0] < math.inf and first.is_idle != other.is_idle and name not in ('step in two', 'restart') and first.code != 3:
         found = math.inf, 'W-IDLE in one only'
     outcome.found[name] = found
+    if first.tells_digits and other.tells_digits:
+        outcome.told.add(name)
+    if outcome.has_friction and {first.code, other.code} == {0, 3} and '--restart' not in other.options \
+            and hangs_on_digits(settings, (first, other), base):
+        outcome.loose.add(name)
+    if {first.code, other.code} == {3, 4} and (first.is_undecided or other.is_undecided):
+        outcome.undecided.add(name)
     if settings.keep and found[0] > EXACT:
         shutil.copy(other.path, os.path.join(settings.folder, f'{outcome.number}-{name.replace(" ", "-")}.inp'))
     return found[0]

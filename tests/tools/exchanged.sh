@@ -37,7 +37,7 @@ box_bounds_t       fields/restart_file.f90 exchange_start bounds
 multiplier_t       fields/restart_file.f90 exchange_multipliers multipliers factorisations,solves,generation,part,before
 warm_start_t       stepping/warm_start.f90 put_start start
 warm_start_t       stepping/warm_start.f90 take_start start
-contact_solution_t stepping/warm_start.f90 put_start solution factor,inner,converged,verdict,factorisations,body_motion,body_force,round_off,has_settled
+contact_solution_t stepping/warm_start.f90 put_start solution factor,inner,converged,verdict,factorisations,body_motion,body_force,flexibility,round_off,has_settled
 slip_memory_t      fields/restart_file.f90 exchange_state memory is_incremental
 run_t              analysis/history_run.f90 record run options,reporter,scene,has_last,observer,sense,idle,n_idle
 run_t              analysis/history_run.f90 resume run reporter,observer,idle,n_idle
