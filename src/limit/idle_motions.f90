@@ -99,24 +99,9 @@ contains
       call take_least(data%fem, rows, idle, off, metric, maxval(abs(u)), data%line%has_friction .and. .not. data%lets_out, &
                       solution, way)
       if (.not. solution%has_settled) return
-      ! only those that have moved: others are exact to their own rounding, which may be far less
-      call close_rows(data, rows, [(holds(i) .and. has_moved(rows, group, way, i), i=1, rows%n)], u, solution)
-      do i = 1, MOST_CLOSINGS
-         if (.not. any(overlaps() .and. .not. holds)) return
-         holds = holds .or. overlaps()
-         call close_rows(data, rows, holds, u, solution)
-      end do
+      call take_rounding_off(data, rows, group, way, u, holds, solution)
 
    contains
-
-      !> Open points that the rounding of the way has made overlap.
-      function overlaps()
-         logical :: overlaps(rows%n)
-         integer(ip) :: i
-
-         overlaps = [(solution%state%state(i) == AT_LOWER .and. i <= count(data%line%normal > 0), i=1, rows%n)]
-         overlaps = overlaps .and. solution%state%r > 0.0_wp .and. solution%state%r <= ROUNDING*maxval(abs(way))
-      end function overlaps
 
       !> A force that is less than what the digits of the deck make of the largest one on its body, and without which a motion were
       !> idle, is none: a roller that stands on one node does not turn until the next one touches because its load is off by the
@@ -427,8 +412,32 @@ contains
       end do
    end function has_moved
 
-   !> After a long way the rows that take a force, and points that have come to touch, are off by its rounding: the least rigid
-   !> motions that put them right.
+   !> After a long way: rows that hold are closed where their bodies have moved (others are exact to their own rounding, which may be
+   !> far less), then open points that the rounding of the way has made overlap, with all that holds.
+   subroutine take_rounding_off(data, rows, group, way, u, holds, solution)
+      type(scene_data_t), intent(in) :: data
+      type(motion_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: group(:)           !< (k)
+      real(wp), intent(in) :: way(:)                !< (k) that the bodies went [L]
+      real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) without rigid motions [L]
+      logical, intent(in) :: holds(:)               !< (m)
+      type(contact_solution_t), intent(inout) :: solution
+      logical :: closes(rows%n), overlaps(rows%n)
+      integer(ip) :: closing, i
+
+      closes = [(holds(i) .and. has_moved(rows, group, way, i), i=1, rows%n)]
+      do closing = 0, MOST_CLOSINGS
+         call close_rows(data, rows, closes, u, solution)
+         if (closing == 0) closes = holds
+         overlaps = solution%state%state == AT_LOWER .and. solution%state%r > 0.0_wp .and. &
+                    solution%state%r <= ROUNDING*maxval(abs(way))
+         overlaps(count(data%line%normal > 0) + 1:) = .false.
+         if (.not. any(overlaps .and. .not. closes)) return
+         closes = closes .or. overlaps
+      end do
+   end subroutine take_rounding_off
+
+   !> After a long way rows are off by its rounding: the least rigid motions that put them right.
    !>
    !> A row that holds says G_i a + row_i(u) = D_i q_i (gap, rest slip and value are in row_i); what it is off by then is EPS_MACH
    !> times the way or so. The least b with G b = off, in the sense of least squares, is taken off the motions.
