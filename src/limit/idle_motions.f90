@@ -16,7 +16,7 @@ module atrito_idle_motions
    use atrito_friction_law, only: FRICTION_NONE
    use atrito_incidence, only: list_holders
    use atrito_joined_sets, only: find_lowest, join_sets
-   use atrito_kinds, only: ip, wp
+   use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_least_motions, only: measure_motions, take_least
    use atrito_load_digits, only: place_doubt, is_within_digits, take_out
    use atrito_motion_rows, only: motion_rows_t, build_motion_rows
@@ -33,7 +33,7 @@ module atrito_idle_motions
    real(wp), parameter :: NO_FORCE = 1.0e-13_wp     !< of the largest force on bodies that touch: round-off
    real(wp), parameter :: DOUBTS = 5.0_wp           !< of a normal, which a force may be off by, over the largest one
    real(wp), parameter :: MOST_DOUBT = 1.0e-9_wp    !< that balances leave
-   real(wp), parameter :: ROUNDING = 1.0e-12_wp     !< of a way that bodies went
+   real(wp), parameter :: LEAST_ROUNDING = 20*EPS_MACH, ROUNDING = 1.0e-12_wp !< of a way that bodies went
    integer(ip), parameter :: MOST_CLOSINGS = 5_ip   !< of points that it has made overlap
    real(wp), parameter :: BALANCED = 1.0e-8_wp      !< of the forces on a body, for the final check
 
@@ -413,7 +413,7 @@ contains
    end function has_moved
 
    !> After a long way: rows that hold are closed where their bodies have moved (others are exact to their own rounding, which may be
-   !> far less), then open points that the rounding of the way has made overlap, with all that holds.
+   !> far less), then open points that the rounding of the way has made overlap, with what holds the motions that they see.
    subroutine take_rounding_off(data, rows, group, way, u, holds, solution)
       type(scene_data_t), intent(in) :: data
       type(motion_rows_t), intent(in) :: rows
@@ -422,18 +422,24 @@ contains
       real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) without rigid motions [L]
       logical, intent(in) :: holds(:)               !< (m)
       type(contact_solution_t), intent(inout) :: solution
-      logical :: closes(rows%n), overlaps(rows%n)
+      logical :: closes(rows%n), overlaps(rows%n), is_seen(rows%n_columns)
+      integer(ip), allocatable :: joined(:)
       integer(ip) :: closing, i
 
-      closes = [(holds(i) .and. has_moved(rows, group, way, i), i=1, rows%n)]
-      do closing = 0, MOST_CLOSINGS
-         call close_rows(data, rows, closes, u, solution)
-         if (closing == 0) closes = holds
-         overlaps = solution%state%state == AT_LOWER .and. solution%state%r > 0.0_wp .and. &
-                    solution%state%r <= ROUNDING*maxval(abs(way))
+      call close_rows(data, rows, [(holds(i) .and. has_moved(rows, group, way, i), i=1, rows%n)], u, solution)
+      closes = .false.
+      do closing = 1, MOST_CLOSINGS
+         associate (r => solution%state%r/maxval(abs(way)))
+            overlaps = solution%state%state == AT_LOWER .and. r > LEAST_ROUNDING .and. r <= ROUNDING
+         end associate
          overlaps(count(data%line%normal > 0) + 1:) = .false.
          if (.not. any(overlaps .and. .not. closes)) return
-         closes = closes .or. overlaps
+         closes = closes .or. overlaps .or. holds
+         call join_motions(rows, closes, joined)
+         is_seen = .false.
+         is_seen(joined(rows%column(pack(rows%first(:rows%n), overlaps)))) = .true.
+         closes = closes .and. [(any(is_seen(joined(rows%column(rows%first(i):rows%first(i + 1) - 1)))), i=1, rows%n)]
+         call close_rows(data, rows, closes, u, solution)
       end do
    end subroutine take_rounding_off
 
