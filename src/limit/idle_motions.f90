@@ -16,7 +16,7 @@ module atrito_idle_motions
    use atrito_friction_law, only: FRICTION_NONE
    use atrito_incidence, only: list_holders
    use atrito_joined_sets, only: find_lowest, join_sets
-   use atrito_kinds, only: ip, wp
+   use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_least_motions, only: measure_motions, take_least
    use atrito_load_digits, only: is_within_digits, take_out
    use atrito_motion_rows, only: motion_rows_t, build_motion_rows
@@ -33,7 +33,7 @@ module atrito_idle_motions
    real(wp), parameter :: NO_FORCE = 1.0e-13_wp     !< of the largest force on bodies that touch: round-off
    real(wp), parameter :: DOUBTS = 5.0_wp           !< of a normal, which a force may be off by, over the largest one
    real(wp), parameter :: MOST_DOUBT = 1.0e-9_wp    !< that balances leave
-   real(wp), parameter :: ROUNDING = 1.0e-12_wp     !< of a way that bodies went
+   real(wp), parameter :: LEAST_ROUNDING = 20*EPS_MACH, ROUNDING = 1.0e-12_wp !< of a way that bodies went
    integer(ip), parameter :: MOST_CLOSINGS = 5_ip   !< of points that it has made overlap
    real(wp), parameter :: BALANCED = 1.0e-8_wp      !< of the forces on a body, for the final check
 
@@ -101,24 +101,9 @@ contains
       call take_least(data%fem, rows, idle, off, metric, maxval(abs(u)), data%line%has_friction .and. .not. data%lets_out, &
                       solution, way)
       if (.not. solution%has_settled) return
-      ! only those that have moved: others are exact to their own rounding, which may be far less
-      call close_rows(data, rows, [(holds(i) .and. has_moved(rows, group, way, i), i=1, rows%n)], u, solution)
-      do i = 1, MOST_CLOSINGS
-         if (.not. any(overlaps() .and. .not. holds)) return
-         holds = holds .or. overlaps()
-         call close_rows(data, rows, holds, u, solution)
-      end do
+      call take_rounding_off(data, rows, group, way, u, holds, solution)
 
    contains
-
-      !> Open points that the rounding of the way has made overlap.
-      function overlaps()
-         logical :: overlaps(rows%n)
-         integer(ip) :: i
-
-         overlaps = [(solution%state%state(i) == AT_LOWER .and. i <= count(data%line%normal > 0), i=1, rows%n)]
-         overlaps = overlaps .and. solution%state%r > 0.0_wp .and. solution%state%r <= ROUNDING*maxval(abs(way))
-      end function overlaps
 
       !> A force that is less than what the digits of the deck make of the largest one on its body, and without which a motion were
       !> idle, is none: a roller that stands on one node does not turn until the next one touches because its load is off by the
@@ -462,8 +447,38 @@ contains
       end do
    end function has_moved
 
-   !> After a long way the rows that take a force, and points that have come to touch, are off by its rounding: the least rigid
-   !> motions that put them right.
+   !> After a long way: rows that hold are closed where their bodies have moved (others are exact to their own rounding, which may be
+   !> far less), then open points that the rounding of the way has made overlap, with what holds the motions that they see.
+   subroutine take_rounding_off(data, rows, group, way, u, holds, solution)
+      type(scene_data_t), intent(in) :: data
+      type(motion_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: group(:)           !< (k)
+      real(wp), intent(in) :: way(:)                !< (k) that the bodies went [L]
+      real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) without rigid motions [L]
+      logical, intent(in) :: holds(:)               !< (m)
+      type(contact_solution_t), intent(inout) :: solution
+      logical :: closes(rows%n), overlaps(rows%n), is_seen(rows%n_columns)
+      integer(ip), allocatable :: joined(:)
+      integer(ip) :: closing, i
+
+      call close_rows(data, rows, [(holds(i) .and. has_moved(rows, group, way, i), i=1, rows%n)], u, solution)
+      closes = .false.
+      do closing = 1, MOST_CLOSINGS
+         associate (r => solution%state%r/maxval(abs(way)))
+            overlaps = solution%state%state == AT_LOWER .and. r > LEAST_ROUNDING .and. r <= ROUNDING
+         end associate
+         overlaps(count(data%line%normal > 0) + 1:) = .false.
+         if (.not. any(overlaps .and. .not. closes)) return
+         closes = closes .or. overlaps .or. holds
+         call join_motions(rows, closes, joined)
+         is_seen = .false.
+         is_seen(joined(rows%column(pack(rows%first(:rows%n), overlaps)))) = .true.
+         closes = closes .and. [(any(is_seen(joined(rows%column(rows%first(i):rows%first(i + 1) - 1)))), i=1, rows%n)]
+         call close_rows(data, rows, closes, u, solution)
+      end do
+   end subroutine take_rounding_off
+
+   !> After a long way rows are off by its rounding: the least rigid motions that put them right.
    !>
    !> A row that holds says G_i a + row_i(u) = D_i q_i (gap, rest slip and value are in row_i); what it is off by then is EPS_MACH
    !> times the way or so. The least b with G b = off, in the sense of least squares, is taken off the motions.

@@ -153,7 +153,7 @@ contains
       do
          after = system%load
          call add_transposed(system%rows, -1.0_wp, merge(0.0_wp, q, none(normal)), after)
-         sizes = transposed_sizes(system%rows, merge(noise, 0.0_wp, .not. none(normal) .and. abs(q) > 0.0_wp))
+         sizes = transposed_sizes(system%rows, merge(0.0_wp, noise, none(normal) .or. abs(q) <= 0.0_wp))
          associate (is_off => abs(after) > abs(before) + BALANCED*of_body(system%body) + sizes, moves => system%n - system%k)
             if (.not. any(is_off(moves + 1:))) return
             do i = 1, system%rows%n

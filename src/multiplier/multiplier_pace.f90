@@ -192,11 +192,12 @@ contains
 
    contains
 
-      !> Anderson's mixing of the bound, once the forces have come. Differences that are round-off lead away: then it begins anew.
+      !> Anderson's mixing of the bound, once the forces have come. Near a solution differences that are round-off lead away: then it
+      !> begins anew.
       subroutine mix_bound()
          logical :: leads_away
 
-         leads_away = loop%distance%bound > FARTHER*loop%mixed
+         leads_away = loop%mixed <= STALE_DISTANCE .and. loop%distance%bound > FARTHER*loop%mixed
          loop%mixed = loop%distance%bound
          if ((loop%can_wait .and. loop%lagging > 0) .or. leads_away) then
             call anderson%reset()
