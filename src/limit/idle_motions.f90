@@ -8,18 +8,17 @@ module atrito_idle_motions
    use atrito_bodies, only: simplest_motion
    use atrito_bound_qp, only: FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_certificate, only: certificate_t, BALANCE_IMPOSSIBLE
-   use atrito_contact_line, only: friction_bound, rest_of
-   use atrito_contact_rows, only: row_value
+   use atrito_contact_line, only: friction_bound
    use atrito_contact_solution, only: contact_solution_t
-   use atrito_dense, only: eigen_symmetric, least_squares
+   use atrito_dense, only: eigen_symmetric
    use atrito_dense_blocks, only: factor_in_blocks
    use atrito_friction_law, only: FRICTION_NONE
    use atrito_incidence, only: list_holders
-   use atrito_joined_sets, only: find_lowest, join_sets
-   use atrito_kinds, only: ip, wp, EPS_MACH
+   use atrito_kinds, only: ip, wp
    use atrito_least_motions, only: measure_motions, take_least
    use atrito_load_digits, only: is_within_digits, take_out
-   use atrito_motion_rows, only: motion_rows_t, build_motion_rows
+   use atrito_long_ways, only: take_rounding_off
+   use atrito_motion_rows, only: motion_rows_t, build_motion_rows, join_motions
    use atrito_own_axes, only: prove_in_own_axes
    use atrito_scene_data, only: scene_data_t
    use atrito_sparse_rows, only: add_transposed, multiply_rows, transposed_sizes
@@ -29,12 +28,9 @@ module atrito_idle_motions
 
    integer(ip), parameter :: MOST_MOTIONS = 300_ip  !< of a group: its null space takes their cube of operations
    real(wp), parameter :: NULL_MOTION = 1.0e-14_wp  !< square of what rows see of an idle motion, over that of the others
-   real(wp), parameter :: MOST_ENTRIES = 1.0e6_wp   !< of the rows that are closed again
    real(wp), parameter :: NO_FORCE = 1.0e-13_wp     !< of the largest force on bodies that touch: round-off
    real(wp), parameter :: DOUBTS = 5.0_wp           !< of a normal, which a force may be off by, over the largest one
    real(wp), parameter :: MOST_DOUBT = 1.0e-9_wp    !< that balances leave
-   real(wp), parameter :: LEAST_ROUNDING = 20*EPS_MACH, ROUNDING = 1.0e-12_wp !< of a way that bodies went
-   integer(ip), parameter :: MOST_CLOSINGS = 5_ip   !< of points that it has made overlap
    real(wp), parameter :: BALANCED = 1.0e-8_wp      !< of the forces on a body, for the final check
 
 contains
@@ -51,7 +47,7 @@ contains
    !>        doubt_small_forces): 2 once more, or the increment once more
    !>     4. closed points without a force count as open, sticking ones without a bound as without friction
    !>     5. of all displacements u + V s the ones nearest to those of the increment before (take_least)
-   !>     6. after a long way, what its rounding has put off in the rows that hold (close_rows)
+   !>     6. after a long way, what its rounding has put off in the rows that hold (atrito_long_ways)
    !>
    !> 4 to 6 leave all forces as they are, since idle motions work with none of them. They choose which of the many displacements
    !> with these forces is told, the same one whatever the form of the contact system and its solver.
@@ -305,27 +301,6 @@ contains
       has_changed = .true.
    end subroutine doubt_loads
 
-   !> Groups of motions that rows join: the number of each, that of its first motion.
-   pure subroutine join_motions(rows, holds, group)
-      type(motion_rows_t), intent(in) :: rows
-      logical, intent(in) :: holds(:)               !< (m)
-      integer(ip), allocatable, intent(out) :: group(:) !< (k)
-      integer(ip) :: i, e
-
-      group = [(i, i=1, rows%n_columns)]
-      do i = 1, rows%n
-         if (.not. holds(i)) cycle
-         do e = rows%first(i) + 1, rows%first(i + 1) - 1
-            call join_sets(group, rows%column(e - 1), rows%column(e))
-         end do
-      end do
-      do i = 1, rows%n_columns
-         e = i
-         call find_lowest(group, e)
-         group(i) = e
-      end do
-   end subroutine join_motions
-
    !> Of each motion, how many its group has.
    pure function members_of(group) result(n)
       integer(ip), intent(in) :: group(:)
@@ -433,98 +408,5 @@ contains
          end do
       end do
    end subroutine add_row
-
-   !> Whether a row is one of a group of bodies of which some have gone a way.
-   pure logical function has_moved(rows, group, way, i)
-      type(motion_rows_t), intent(in) :: rows
-      integer(ip), intent(in) :: group(:), i
-      real(wp), intent(in) :: way(:)
-      integer(ip) :: e
-
-      has_moved = .false.
-      do e = rows%first(i), rows%first(i + 1) - 1
-         has_moved = has_moved .or. any(abs(way) > 0.0_wp .and. group == group(rows%column(e)))
-      end do
-   end function has_moved
-
-   !> After a long way: rows that hold are closed where their bodies have moved (others are exact to their own rounding, which may be
-   !> far less), then open points that the rounding of the way has made overlap, with what holds the motions that they see.
-   subroutine take_rounding_off(data, rows, group, way, u, holds, solution)
-      type(scene_data_t), intent(in) :: data
-      type(motion_rows_t), intent(in) :: rows
-      integer(ip), intent(in) :: group(:)           !< (k)
-      real(wp), intent(in) :: way(:)                !< (k) that the bodies went [L]
-      real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) without rigid motions [L]
-      logical, intent(in) :: holds(:)               !< (m)
-      type(contact_solution_t), intent(inout) :: solution
-      logical :: closes(rows%n), overlaps(rows%n), is_seen(rows%n_columns)
-      integer(ip), allocatable :: joined(:)
-      integer(ip) :: closing, i
-
-      call close_rows(data, rows, [(holds(i) .and. has_moved(rows, group, way, i), i=1, rows%n)], u, solution)
-      closes = .false.
-      do closing = 1, MOST_CLOSINGS
-         associate (r => solution%state%r/maxval(abs(way)))
-            overlaps = solution%state%state == AT_LOWER .and. r > LEAST_ROUNDING .and. r <= ROUNDING
-         end associate
-         overlaps(count(data%line%normal > 0) + 1:) = .false.
-         if (.not. any(overlaps .and. .not. closes)) return
-         closes = closes .or. overlaps .or. holds
-         call join_motions(rows, closes, joined)
-         is_seen = .false.
-         is_seen(joined(rows%column(pack(rows%first(:rows%n), overlaps)))) = .true.
-         closes = closes .and. [(any(is_seen(joined(rows%column(rows%first(i):rows%first(i + 1) - 1)))), i=1, rows%n)]
-         call close_rows(data, rows, closes, u, solution)
-      end do
-   end subroutine take_rounding_off
-
-   !> After a long way rows are off by its rounding: the least rigid motions that put them right.
-   !>
-   !> A row that holds says G_i a + row_i(u) = D_i q_i (gap, rest slip and value are in row_i); what it is off by then is EPS_MACH
-   !> times the way or so. The least b with G b = off, in the sense of least squares, is taken off the motions.
-   subroutine close_rows(data, rows, closes, u, solution)
-      type(scene_data_t), intent(in) :: data
-      type(motion_rows_t), intent(in) :: rows
-      logical, intent(in) :: closes(:)              !< (m)
-      real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) without rigid motions [L]
-      type(contact_solution_t), intent(inout) :: solution !< motions, and r of open rows
-      real(wp), parameter :: DEPENDENT = 1.0e-8_wp
-      real(wp), allocatable :: g(:, :), off(:)
-      real(wp) :: back(rows%n_columns), moved(rows%n)
-      integer(ip), allocatable :: list(:)
-      integer(ip) :: i, rank, info
-
-      list = pack([(i, i=1, rows%n)], closes)
-      if (size(list) == 0 .or. real(size(list), wp)*rows%n_columns > MOST_ENTRIES) return
-      allocate (g(size(list), rows%n_columns), source=0.0_wp)
-      allocate (off(size(list)))
-      call multiply_rows(rows, solution%state%a, moved)
-      do i = 1, size(list, kind=ip)
-         associate (k => list(i))
-            g(i, rows%column(rows%first(k):rows%first(k + 1) - 1)) = rows%value(rows%first(k):rows%first(k + 1) - 1)
-            off(i) = moved(k) - solution%bounds%d(k)*solution%state%q(k) + row_of(data, k, u)
-         end associate
-      end do
-      call least_squares(g, off, back, DEPENDENT, rank, info)
-      if (info /= 0) return
-      solution%state%a = solution%state%a - back
-      call multiply_rows(rows, back, moved)
-      where (solution%state%state /= FREE) solution%state%r = solution%state%r - moved
-   end subroutine close_rows
-
-   !> What the displacements make of row i beyond its gap, rest slip or value [L].
-   pure real(wp) function row_of(data, i, u) result(value)
-      type(scene_data_t), intent(in) :: data
-      integer(ip), intent(in) :: i                  !< unknown force
-      real(wp), intent(in) :: u(:, :)
-
-      associate (j => data%line%point(i))
-         if (data%line%normal(j) == i) then
-            value = row_value(data%rows, j, data%rows%normal(:, j), u) - data%rows%gap(j)
-         else
-            value = row_value(data%rows, j, data%rows%tangent(:, j), u) - rest_of(data%line, j)
-         end if
-      end associate
-   end function row_of
 
 end module atrito_idle_motions

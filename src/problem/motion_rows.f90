@@ -9,13 +9,14 @@ module atrito_motion_rows
    use atrito_assembly, only: fem_t
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_rows, only: contact_rows_t
+   use atrito_joined_sets, only: find_lowest, join_sets
    use atrito_kinds, only: ip, wp
    use atrito_row_entries, only: motions_of_row, first_motions, work_on_motion, MOST_MODES
    use atrito_sliding_motions, only: printed_grain
    use atrito_sparse_rows, only: sparse_rows_t
    implicit none (type, external)
    private
-   public :: motion_rows_t, build_motion_rows, digits_of_deck, GRAINS, MOST_PART
+   public :: motion_rows_t, build_motion_rows, join_motions, digits_of_deck, GRAINS, MOST_PART
 
    !> G by the entries of its rows, and h.
    type, extends(sparse_rows_t) :: motion_rows_t
@@ -116,5 +117,26 @@ contains
          if (any(rows%reach(:n) < LATTICE*grain)) grain = 0.0_wp
       end associate
    end function digits_of
+
+   !> Groups of motions that rows join: the number of each, that of its first motion.
+   pure subroutine join_motions(rows, holds, group)
+      type(motion_rows_t), intent(in) :: rows
+      logical, intent(in) :: holds(:)               !< (m)
+      integer(ip), allocatable, intent(out) :: group(:) !< (k)
+      integer(ip) :: i, e
+
+      group = [(i, i=1, rows%n_columns)]
+      do i = 1, rows%n
+         if (.not. holds(i)) cycle
+         do e = rows%first(i) + 1, rows%first(i + 1) - 1
+            call join_sets(group, rows%column(e - 1), rows%column(e))
+         end do
+      end do
+      do i = 1, rows%n_columns
+         e = i
+         call find_lowest(group, e)
+         group(i) = e
+      end do
+   end subroutine join_motions
 
 end module atrito_motion_rows
