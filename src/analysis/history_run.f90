@@ -106,7 +106,7 @@ contains
          run%data%keeps = .true.
          run%data%asks_for_bases = .true.
          if (allocated(state%released)) run%data%released = state%released
-         run%data%fem%grain = state%grain
+         run%data%fem%digit_error = state%digit_error
          if (allocated(state%had_motion)) call widen(run%data%had, state%had_motion, state%had_force)
          state%memory%is_incremental = run%memory%is_incremental
          run%memory = state%memory
@@ -156,7 +156,7 @@ contains
       state%ends_step = run%last%ends_step
       state%began = run%began
       state%condition = run%condition
-      state%grain = run%data%fem%grain
+      state%digit_error = run%data%fem%digit_error
       if (allocated(run%data%had%motion)) then
          state%had_motion = run%data%had%motion
          state%had_force = run%data%had%force

@@ -110,7 +110,7 @@ contains
       call begin_results(results, again)
       again%scene%near_elements = .false.
       results = again
-      data%fem%grain = 0.0_wp
+      data%fem%digit_error = 0.0_wp
       call drop_assembled(data)
       if (allocated(data%flexibility)) deallocate (data%flexibility)
       call move_alloc(data%last, last)

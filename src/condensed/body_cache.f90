@@ -37,7 +37,7 @@ module atrito_body_cache
       type(contact_points_t), allocatable, private :: points(:) !< of each pair: which dofs are retained
       type(bilateral_rows_t), private :: bilateral              !< ties, equations, supports aslant
       integer, private :: asked = 0                    !< solver asked for
-      real(wp), private :: grain = 0.0_wp              !< [L] of the elements that were taken as equal
+      real(wp), private :: digit_error = 0.0_wp        !< [L] of the elements that were taken as equal
       real(wp), allocatable, private :: load(:, :)     !< (2, n_nodes) [F] the reduced load
       type(body_result_t), allocatable, private :: results(:) !< (bodies) solver, memory, worst pivot
    end type body_cache_t
@@ -66,7 +66,7 @@ contains
 
       store%factorisations = 0
       same_bodies = .false.
-      if (store%holds) same_bodies = store%asked == asked .and. store%grain == fem%grain &
+      if (store%holds) same_bodies = store%asked == asked .and. store%digit_error == fem%digit_error &
                                      .and. has_same_numbering(store, held, points, fem, bilateral)
       ! until all is well nothing is in the store
       store%holds = .false.
@@ -108,7 +108,7 @@ contains
 
          store%holds = .true.
          store%asked = asked
-         store%grain = fem%grain
+         store%digit_error = fem%digit_error
          store%load = load
          store%results = results
          store%sections = fem%sections

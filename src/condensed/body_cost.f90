@@ -162,7 +162,7 @@ contains
 
       call order_by_dissection(fem%mesh, fem%bodies, b, elimination)
       result%order = elimination%text
-      call collect_elements(fem, fem%bodies%list(b)%elements, store, fem%grain)
+      call collect_elements(fem, fem%bodies%list(b)%elements, store, fem%digit_error)
       associate (kept => fem%bodies%list(b)%n_retained)
          call expect_fronts(elimination, fem%bodies%list(b)%n, kept, store, held, most, enough)
          if (.not. enough) return

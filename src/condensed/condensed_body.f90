@@ -84,7 +84,7 @@ contains
       call body%solver%create(profile, status)
       ! fronts alone are the fewer for elements that are taken as equal
       if (is_ok(status)) call assemble_body(fem, i_body, body%solver, &
-                                            merge(fem%grain, 0.0_wp, result%solver_kind == SOLVER_SPARSE), body%is_near)
+                                            merge(fem%digit_error, 0.0_wp, result%solver_kind == SOLVER_SPARSE), body%is_near)
       call stop_phase('assemble')
       if (.not. is_ok(status)) return
       call start_phase('factor')

@@ -37,7 +37,7 @@ module atrito_master
    type, extends(pieces_t) :: master_t
       logical :: rigid = .false.                    !< segments and arcs that do not deform
       integer(ip) :: degree = 0                     !< of the elements of all faces; 0: rigid, none, or not the same
-      real(wp) :: grain = 0.0_wp                    !< to which nodes are known, those of slaves as well [L]; 0: all digits
+      real(wp) :: digit_error = 0.0_wp              !< to which nodes are known, those of slaves as well [L]; 0: all digits
       real(wp), allocatable :: ends(:, :, :)        !< (2, first and last end, n) unit normals of the smooth surface
       real(wp), allocatable :: curvature(:, :)      !< (first and last end, n) [1/L] >= 0
       real(wp), allocatable :: kink(:, :)           !< (first and last end, n) 0..1: how far the next piece is another side
@@ -65,11 +65,11 @@ module atrito_master
 contains
 
    !> The faces of elements as a master; their outside lies at the right of the direction of travel.
-   pure subroutine master_of_faces(mesh, faces, master, grain)
+   pure subroutine master_of_faces(mesh, faces, master, digit_error)
       type(mesh_t), intent(in) :: mesh              !< the faces are of its elements
       type(face_list_t), intent(in) :: faces        !< of the master, in the order of its pieces
       type(master_t), intent(out) :: master         !< with smooth normals, curvatures, kinks and tree
-      real(wp), intent(in), optional :: grain       !< to which the nodes of the mesh are known [L]; left out: all digits
+      real(wp), intent(in), optional :: digit_error !< to which the nodes of the mesh are known [L]; left out: all digits
       integer(ip), allocatable :: nodes(:)
       real(wp), allocatable :: curvature(:)
       integer(ip) :: i
@@ -85,8 +85,8 @@ contains
          master%degree = DEGREE_OF(mesh%shape(faces%element(1)))
          if (any(DEGREE_OF(mesh%shape(faces%element(:faces%n))) /= master%degree)) master%degree = 0
       end if
-      if (present(grain)) master%grain = grain
-      call smooth_surface(mesh, faces, master%ends, curvature, master%bend, master%grain)
+      if (present(digit_error)) master%digit_error = digit_error
+      call smooth_surface(mesh, faces, master%ends, curvature, master%bend, master%digit_error)
       call begin_ends(curvature, master)
       call join_faces(mesh, faces, curvature, master)
       call plant(master%pieces_t, master%tree)

@@ -82,7 +82,7 @@ contains
       real(wp), allocatable :: ends(:, :, :), cuts(:)
       integer(ip) :: i
 
-      call smooth_surface(mesh, slave, ends, segments%curvature, segments%bend, master%grain)
+      call smooth_surface(mesh, slave, ends, segments%curvature, segments%bend, master%digit_error)
       allocate (segments%direction(2, 3, slave%n), segments%first(slave%n + 1))
       segments%direction(:, :2, :) = ends
       segments%first(1) = 1

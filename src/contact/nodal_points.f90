@@ -81,7 +81,7 @@ contains
       if (points%n_left_out == slave%n) points%n_seeing = count([(sees_master(mesh, slave, i, master), i=1, slave%n)], kind=ip)
       points%faces = pack([(int(slave%element(i), lp)*MOST_SIDES + slave%face(i), i=1, slave%n)], used)
       call allocate_points(3*slave%n, 3*slave%n*NODAL_ENTRIES, points)
-      call place_points(mesh, thickness, slave, used, master%grain, points, curvature, mixed)
+      call place_points(mesh, thickness, slave, used, master%digit_error, points, curvature, mixed)
       call look_for_master(master_faces, points)
       if (.not. master%rigid) points%matching = are_matching(mesh, slave, master, points)
       if (points%matching .and. points%n > 0) then
@@ -211,12 +211,12 @@ contains
    !> One point a slave node; weights and normals of the faces that share it are summed: l_j = sum l_a, w_j = sum l_a
    !> h_a, and the normal is that of sum l_a n_a. The curvature of a point is the mean of its faces', weighted by l_a,
    !> AT_CORNER where they meet at a corner, and AT_END where a straight side ends.
-   pure subroutine place_points(mesh, thickness, slave, used, grain, points, curvature, mixed)
+   pure subroutine place_points(mesh, thickness, slave, used, digit_error, points, curvature, mixed)
       type(mesh_t), intent(in) :: mesh
       real(wp), intent(in) :: thickness(:)          !< of each element [L]
       type(face_list_t), intent(in) :: slave        !< one chain, ordered
       logical, intent(in) :: used(:)                !< (faces) that take part
-      real(wp), intent(in) :: grain                 !< to which the nodes are known [L]
+      real(wp), intent(in) :: digit_error           !< to which the nodes are known [L]
       type(contact_points_t), intent(inout) :: points
       real(wp), allocatable, intent(out) :: curvature(:) !< of the slave at the points [1/L]
       type(terms_t), intent(inout) :: mixed         !< of rows at the axis
@@ -228,7 +228,7 @@ contains
       real(wp) :: s
       integer(ip) :: i, j, k, end, of_node(3)
 
-      call smooth_surface(mesh, slave, ends, of_face, bend, grain)
+      call smooth_surface(mesh, slave, ends, of_face, bend, digit_error)
       allocate (curvature(size(points%s)), source=0.0_wp)
       is_corner = .false.
       is_end = .false.

@@ -33,7 +33,7 @@ module atrito_points
       real(wp) :: centre(2) = 0.0_wp                !< [L]
       real(wp) :: radius = 0.0_wp                   !< [L]
       real(wp) :: extent = 0.0_wp                   !< the radius, or the length of the straight side [L]
-      real(wp) :: grain = 0.0_wp                    !< to which its nodes are known [L]
+      real(wp) :: digit_error = 0.0_wp              !< to which its nodes are known [L]
    end type sliding_t
 
    !> The points of a pair as constraints: the relative displacement of point j is the sum over its entries k, from first(j) to

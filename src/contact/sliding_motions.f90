@@ -28,7 +28,7 @@ module atrito_sliding_motions
    use atrito_slave_faces, only: nodal_rule_t, nodal_rule, turn_at, sine
    implicit none (type, external)
    private
-   public :: chords_t, list_chords, find_sliding, note_doubt, serves, adopted, sharpness, velocity, printed_grain
+   public :: chords_t, list_chords, find_sliding, note_doubt, serves, adopted, sharpness, velocity, printed_digit_error
 
    !> The chords of both sides of a pair.
    type :: chords_t
@@ -37,30 +37,30 @@ module atrito_sliding_motions
       real(wp), allocatable :: normal(:, :)         !< (2, n) unit vectors out of their bodies
       real(wp), allocatable :: length(:)            !< (n) [L]
       logical, allocatable :: of_slave(:)           !< (n)
-      real(wp) :: grain = 0.0_wp                    !< to which the nodes are known [L]
+      real(wp) :: digit_error = 0.0_wp              !< to which the nodes are known [L]
    end type chords_t
 
-   real(wp), parameter :: DIGITS_TURN = 3.0_wp      !< by what a chord may be turned, in grains over its length
+   real(wp), parameter :: DIGITS_TURN = 3.0_wp      !< by what a chord may be turned, in digit errors over its length
    real(wp), parameter :: CURVE_TURN = 0.01_wp      !< the same of chords of a curve, in squares of the angle they span
-   real(wp), parameter :: LATTICE = 10.0_wp         !< length of a face in grains, of nodes that were not rounded
+   real(wp), parameter :: LATTICE = 10.0_wp         !< length of a face in digit errors, of nodes that were not rounded
    integer, parameter :: MOST_DIGITS = 13           !< that are looked for
    integer(ip), parameter :: LEAST_CHORDS = 3_ip    !< of a round side: two bisectors always meet
    real(wp), parameter :: FLAT = 1.0e-3_wp          !< sag of a face over its length, of one that is straight
-   real(wp), parameter :: EXACT = 1.0e-13_wp        !< grain over size of nodes that are not rounded to digits
+   real(wp), parameter :: EXACT = 1.0e-13_wp        !< digit error over size of nodes that are not rounded to digits
    real(wp), parameter :: CONCENTRIC = 1.0_wp      !< distance of the centres of a pin and its hole, in radii of the smaller
 
 contains
 
    !> The chords of the faces that take part: those of the slave that are not left out, and those that they see (faces_seen).
-   !> The grain is that of the mesh or of these nodes alone, whichever is coarser; faces as short as ten grains tell
+   !> The digit error is that of the mesh or of these nodes alone, whichever is coarser; faces as short as ten digit errors tell
    !> that the nodes were not rounded to it.
-   pure subroutine list_chords(mesh, slave, faces, master, points, grain, chords)
+   pure subroutine list_chords(mesh, slave, faces, master, points, digit_error, chords)
       type(mesh_t), intent(in) :: mesh !< where the nodes lie
       type(face_list_t), intent(in) :: slave        !< one chain, ordered
       type(face_list_t), intent(in) :: faces        !< of the master; n = 0: it is rigid
       type(master_t), intent(in) :: master          !< of the pair
       type(contact_points_t), intent(in) :: points  !< of the pair
-      real(wp), intent(in) :: grain                 !< to which all nodes of the mesh are known [L]
+      real(wp), intent(in) :: digit_error           !< to which all nodes of the mesh are known [L]
       type(chords_t), intent(out) :: chords         !< of both sides
       logical :: is_seen(master%n)
       integer(ip) :: i, used
@@ -69,7 +69,7 @@ contains
       allocate (chords%place(2, i), chords%normal(2, i), chords%length(i), chords%of_slave(i))
       is_seen = faces_seen(mesh, slave, master, points)
       ! nodes about the origin may have few digits, since the others have not many more
-      chords%grain = max(grain, printed_grain(reshape([mesh%x(:, points%entry), &
+      chords%digit_error = max(digit_error, printed_digit_error(reshape([mesh%x(:, points%entry), &
                                                        master%a(:, pack([(i, i=1, master%n)], is_seen))], &
                                                       [2, size(points%entry) + count(is_seen)])))
       used = 1
@@ -89,7 +89,7 @@ contains
       end do
       chords = only(spread(.true., 1, chords%n), chords)
       ! nodes on a lattice, as of whole numbers: a mesh of faces as short as their last digit was not rounded to it
-      if (any(chords%length < LATTICE*chords%grain)) chords%grain = EPS_MACH*maxval(abs(chords%place))
+      if (any(chords%length < LATTICE*chords%digit_error)) chords%digit_error = EPS_MACH*maxval(abs(chords%place))
    end subroutine list_chords
 
    !> The faces of the master that the slave's see from two places inside of each. Of a node of both sides it would be round-off, or
@@ -142,7 +142,7 @@ contains
 
       is_bent = size(x, 2) == 3
       if (is_bent) is_bent = norm2(x(:, 3) - 0.5_wp*(x(:, 1) + x(:, 2))) &
-                             > max(FLAT*norm2(x(:, 2) - x(:, 1)), DIGITS_TURN*chords%grain)
+                             > max(FLAT*norm2(x(:, 2) - x(:, 1)), DIGITS_TURN*chords%digit_error)
       if (is_bent) then
          call add_chord(x(:, 1), x(:, 3), of_slave, chords)
          call add_chord(x(:, 3), x(:, 2), of_slave, chords)
@@ -186,10 +186,10 @@ contains
    !>
    !> The coordinates of the first decade, 10^m <= |x| <= max |x|, have as many decimals as those of the next one below
    !> or, printed with so many digits, one less. With d digits from 10^m on the unit of the last one is 10^(m + 1 - d),
-   !> and the grain half of it. Where the first decade has round numbers the next one tells. Up to three digits are
-   !> meant as they are (0.25 is a quarter, not 0.25 +- 0.005), and more than MOST_DIGITS are not rounded: the grain is
+   !> and the digit error half of it. Where the first decade has round numbers the next one tells. Up to three digits are
+   !> meant as they are (0.25 is a quarter, not 0.25 +- 0.005), and more than MOST_DIGITS are not rounded: the digit error is
    !> the round-off of the largest coordinate then.
-   pure real(wp) function printed_grain(x) result(grain)
+   pure real(wp) function printed_digit_error(x) result(digit_error)
       real(wp), intent(in) :: x(:, :)               !< (2, n) [L]
       integer, parameter :: ROUND = 3
       real(wp) :: most, decade
@@ -197,13 +197,13 @@ contains
 
       most = 0.0_wp
       if (size(x) > 0) most = maxval(abs(x))
-      grain = EPS_MACH*most
+      digit_error = EPS_MACH*most
       if (.not. most > 0.0_wp) return
       decade = 10.0_wp**floor(log10(most))
       digits = [digits_of(x, decade, most, 10*decade), digits_of(x, 0.1_wp*decade, decade*(1 - EPS_MACH), 10*decade)]
       if (digits(1) < digits(2) - 1) digits(1) = digits(2)
-      if (digits(1) > ROUND .and. digits(1) <= MOST_DIGITS) grain = max(grain, 5*decade*10.0_wp**(-digits(1)))
-   end function printed_grain
+      if (digits(1) > ROUND .and. digits(1) <= MOST_DIGITS) digit_error = max(digit_error, 5*decade*10.0_wp**(-digits(1)))
+   end function printed_digit_error
 
    !> The digits of those of some numbers that lie in a range, counted from a decade on; one more than are looked for where there
    !> are more. A number of few digits is off them by its rounding and no more: multiples of 0.0129000073 have not three.
@@ -283,9 +283,9 @@ contains
       end do
       if (.not. norm2(n) > 0.0_wp) return
       motion%extent = sum(chords%length, mask=chords%of_slave .eqv. chords%of_slave(1))
-      motion%grain = chords%grain
+      motion%digit_error = chords%digit_error
       n = n/norm2(n)
-      where (abs(n) <= DIGITS_TURN*motion%grain/motion%extent) n = 0.0_wp
+      where (abs(n) <= DIGITS_TURN*motion%digit_error/motion%extent) n = 0.0_wp
       motion%direction = [-n(2), n(1)]/norm2(n)
       motion%exists = all([(slides(chords, i, motion), i=1, chords%n)])
    end subroutine find_straight
@@ -315,10 +315,10 @@ contains
       motion%is_round = .true.
       motion%centre = origin + perp(a(:2, 1))*(length/a(3, 1))
       ! a centre with as few digits as the nodes have is the one that is meant
-      if (chords%grain > EXACT*length) motion%centre = anint(motion%centre/(2*chords%grain))*(2*chords%grain)
+      if (chords%digit_error > EXACT*length) motion%centre = anint(motion%centre/(2*chords%digit_error))*(2*chords%digit_error)
       motion%radius = sum(norm2(chords%place - spread(motion%centre, 2, chords%n), dim=1))/chords%n
       motion%extent = motion%radius
-      motion%grain = chords%grain
+      motion%digit_error = chords%digit_error
       motion%is_convex = dot_product(chords%normal(:, 1), chords%place(:, 1) - motion%centre) > 0.0_wp
       motion%exists = all([(slides(chords, i, motion), i=1, chords%n)])
    end subroutine find_round
@@ -336,7 +336,7 @@ contains
          some%length = chords%length(list)
          some%of_slave = chords%of_slave(list)
       end associate
-      some%grain = chords%grain
+      some%digit_error = chords%digit_error
    end function only
 
    !> Whether a chord slides along itself, |n . v| <= doubt |v|, but for the digits of its ends, 3 g/h, and the
@@ -348,7 +348,7 @@ contains
       real(wp) :: v(2), doubt
 
       v = velocity(motion, chords%place(:, i))
-      doubt = DIGITS_TURN*max(chords%grain, motion%grain)/chords%length(i)
+      doubt = DIGITS_TURN*max(chords%digit_error, motion%digit_error)/chords%length(i)
       if (motion%is_round) doubt = max(doubt, CURVE_TURN*(chords%length(i)/norm2(v))**2)
       slides = abs(dot_product(v, chords%normal(:, i))) <= doubt*norm2(v)
    end function slides
@@ -363,8 +363,8 @@ contains
       if (serves) serves = all([(slides(chords, i, other) .or. .not. slides(chords, i, own), i=1, chords%n)])
    end function serves
 
-   !> How sharply the chords of a pair tell its motion: their number, of a rotation; the longest one that slides, in grains, of a
-   !> translation, since a node that is off by g turns a chord by g/h.
+   !> How sharply the chords of a pair tell its motion: their number, of a rotation; the longest one that slides, in digit errors, of
+   !> a translation, since a node that is off by g turns a chord by g/h.
    pure integer(lp) function sharpness(chords, motion)
       type(chords_t), intent(in) :: chords
       type(sliding_t), intent(in) :: motion         !< of the pair
@@ -372,7 +372,7 @@ contains
 
       sharpness = chords%n
       if (motion%is_round) return
-      sharpness = int(maxval(chords%length(:chords%n), mask=[(slides(chords, i, motion), i=1, chords%n)])/chords%grain, lp)
+      sharpness = int(maxval(chords%length(:chords%n), mask=[(slides(chords, i, motion), i=1, chords%n)])/chords%digit_error, lp)
    end function sharpness
 
    !> The motion of another pair with the size of a pair's own.
@@ -397,10 +397,10 @@ contains
    !> By what normals may be off [rad]: by the digits of the nodes, 3 g/l_j; and at an end of a chain, where a curve
    !> goes on that the faces do not show, as at a line of symmetry, by half of the turn from one straight face to the
    !> next, or by what a parabola is off.
-   pure subroutine note_doubt(mesh, slave, grain, points)
+   pure subroutine note_doubt(mesh, slave, digit_error, points)
       type(mesh_t), intent(in) :: mesh              !< where the nodes lie
       type(face_list_t), intent(in) :: slave        !< one chain, ordered (order_chain)
-      real(wp), intent(in) :: grain                 !< [L]
+      real(wp), intent(in) :: digit_error           !< [L]
       type(contact_points_t), intent(inout) :: points !< of the pair
       type(nodal_rule_t) :: rule
       integer(ip) :: i, k, j
@@ -408,7 +408,7 @@ contains
       real(wp), parameter :: HALF = 0.6_wp          !< with some reserve
       real(wp), parameter :: PARABOLA = 1/16.0_wp   !< of a circle's arc it is off by 1/32 of the cube of the angle at its ends
 
-      points%doubt = DIGITS_TURN*grain/points%length(:points%n)
+      points%doubt = DIGITS_TURN*digit_error/points%length(:points%n)
       do k = 1, 2
          i = merge(1_ip, slave%n, k == 1)
          rule = nodal_rule(mesh, slave%element(i), slave%face(i))

@@ -29,10 +29,10 @@ module atrito_smooth_normals
 
    !> A smaller turn of the normal [rad] is rounding of the coordinates: the surface is straight there; a turn like this is not.
    real(wp), parameter :: NO_TURN = 1.0e-6_wp, A_TURN = 1.0e-4_wp
-   !> What the last digits of its nodes may turn the normal by along a face: in grains over its length.
+   !> What the last digits of its nodes may turn the normal by along a face: in digit errors over its length.
    real(wp), parameter :: DIGITS_TURN = 12.0_wp
-   real(wp), parameter :: OFF_LINE = 3.0_wp         !< what they may move a node off the line through two others by: in grains
-   real(wp), parameter :: LATTICE = 10.0_wp         !< length of a face in grains, of nodes that were not rounded
+   real(wp), parameter :: OFF_LINE = 3.0_wp         !< what they may move a node off the line through two others by: in digit errors
+   real(wp), parameter :: LATTICE = 10.0_wp         !< length of a face in digit errors, of nodes that were not rounded
 
 contains
 
@@ -42,13 +42,13 @@ contains
    !> The faces may come in any order: the face that goes on where another ends is found by its first node. A first loop
    !> looks at each face by itself, a second one at each joint; the turn at a joint belongs to both of its faces, half
    !> and half where a face has two.
-   pure subroutine smooth_surface(mesh, faces, ends, curvature, bend, grain)
+   pure subroutine smooth_surface(mesh, faces, ends, curvature, bend, digit_error)
       type(mesh_t), intent(in) :: mesh !< nodes of the faces
       type(face_list_t), intent(in) :: faces              !< of one surface
       real(wp), allocatable, intent(out) :: ends(:, :, :) !< (2, first and last end, faces)
       real(wp), allocatable, intent(out) :: curvature(:)  !< (faces) [1/L] >= 0
       real(wp), allocatable, intent(out) :: bend(:)       !< (faces) [1/L] > 0: convex
-      real(wp), intent(in), optional :: grain       !< to which the nodes are known [L]; left out: all digits
+      real(wp), intent(in), optional :: digit_error !< to which the nodes are known [L]; left out: all digits
       type(id_map_t) :: begins                      ! face of its first node
       real(wp) :: turn(faces%n), joints(faces%n), slope(2, faces%n), own(2, 2), length(2)
       integer(ip) :: n_joints(faces%n), beside(2, faces%n), last(faces%n), i, k
@@ -90,7 +90,7 @@ contains
       call turn_outer_ends(curvature, ends)
       turn = turn + joints/max(n_joints, 1_ip)
       joints = 0.0_wp                               ! of the turns, what is rounding
-      if (present(grain)) call doubt_digits(mesh, faces, beside, curvature, grain, turn, joints)
+      if (present(digit_error)) call doubt_digits(mesh, faces, beside, curvature, digit_error, turn, joints)
       curvature = turn*shown(turn, joints)*curvature
 
    contains
@@ -134,20 +134,20 @@ contains
 
    !> What the last digits of the nodes make of turns. Of faces all of whose nodes, and those of the faces beside them, lie within
    !> OFF_LINE of the line through the outermost two, the turn is none; from there to twice as far off it comes back.
-   pure subroutine doubt_digits(mesh, faces, beside, per_length, grain, turn, rounding)
+   pure subroutine doubt_digits(mesh, faces, beside, per_length, digit_error, turn, rounding)
       type(mesh_t), intent(in) :: mesh              !< nodes of the faces
       type(face_list_t), intent(in) :: faces        !< of one surface
       integer(ip), intent(in) :: beside(:, :)       !< (2, faces) those before and behind without a corner; 0: none
       real(wp), intent(in) :: per_length(:)         !< (faces) [1/L]
-      real(wp), intent(in) :: grain                 !< to which the nodes are known [L]
+      real(wp), intent(in) :: digit_error           !< to which the nodes are known [L]
       real(wp), intent(inout) :: turn(:)            !< (faces) [rad]
       real(wp), intent(inout) :: rounding(:)        !< (faces) of the turns [rad]; kept where the nodes were not rounded
       integer(ip), allocatable :: nodes(:)
       integer(ip) :: ends(2), i, j, k
       real(wp) :: d(2), off
 
-      if (.not. (grain > 0.0_wp .and. all(1 > LATTICE*grain*per_length))) return
-      rounding = DIGITS_TURN*grain*per_length
+      if (.not. (digit_error > 0.0_wp .and. all(1 > LATTICE*digit_error*per_length))) return
+      rounding = DIGITS_TURN*digit_error*per_length
       do i = 1, faces%n
          nodes = face_nodes(mesh, faces%element(i), faces%face(i))
          ends = nodes(:2)
@@ -159,10 +159,10 @@ contains
             if (k == 2) ends(k) = mesh%nodes(face_end(mesh, faces%element(j), faces%face(j)), faces%element(j))
          end do
          d = mesh%x(:, ends(2)) - mesh%x(:, ends(1))
-         if (.not. norm2(d) > grain) cycle          ! a ring
+         if (.not. norm2(d) > digit_error) cycle    ! a ring
          off = maxval([(abs((mesh%x(1, nodes(k)) - mesh%x(1, ends(1)))*d(2) - (mesh%x(2, nodes(k)) - mesh%x(2, ends(1)))*d(1)), &
                         k=1, size(nodes, kind=ip))])/norm2(d)
-         turn(i) = turn(i)*smooth_step(off/(OFF_LINE*grain) - 1)
+         turn(i) = turn(i)*smooth_step(off/(OFF_LINE*digit_error) - 1)
       end do
    end subroutine doubt_digits
 

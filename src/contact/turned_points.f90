@@ -12,7 +12,7 @@ module atrito_turned_points
 
    real(wp), parameter :: NO_PART = 5.0e-14_wp      !< of a motion, along a normal
    real(wp), parameter :: MOST_TURN = 1.2_wp        !< of a row [rad]: more than coarse chords make of a curve
-   real(wp), parameter :: MIXED_TURN = 30.0_wp      !< where one side alone is straight: in grains over the length of a point
+   real(wp), parameter :: MIXED_TURN = 30.0_wp      !< where one side alone is straight: in digit errors over the length of a point
 
 contains
 
@@ -35,7 +35,7 @@ contains
          normal(:, j) = [v(2), -v(1)]/norm2(v)
          normal(:, j) = sign(1.0_wp, dot_product(normal(:, j), points%normal(:, j)))*normal(:, j)
          most = MOST_TURN
-         if (.not. motion%is_of_both) most = MIXED_TURN*motion%grain/points%length(j)
+         if (.not. motion%is_of_both) most = MIXED_TURN*motion%digit_error/points%length(j)
          is_turned(j) = norm2(normal(:, j) - points%normal(:, j)) <= most
          if (.not. is_turned(j) .and. motion%is_of_both) return
       end do

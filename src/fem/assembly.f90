@@ -4,7 +4,7 @@
 !> different, so that small differences do not add up along a mesh.
 !>
 !> Where the coordinates of a regular mesh were printed with 10 to 15 digits, no two elements are equal, but most are within the
-!> `grain` of those digits. Whoever puts the difference right afterwards takes one stiffness for these, too.
+!> `digit_error` of those digits. Whoever puts the difference right afterwards takes one stiffness for these, too.
 module atrito_assembly
    use atrito_element_table, only: MOST_NODES
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
@@ -20,7 +20,7 @@ module atrito_assembly
    implicit none (type, external)
    private
    public :: fem_t, form_t, stiffness_cache_t, body_profile, collect_elements, assemble_body, &
-             retained_diagonal, cached_stiffness, grain_of, has_form, take_form
+             retained_diagonal, cached_stiffness, digit_error_of, has_form, take_form
 
    !> The elements and their sections: what every sum over elements needs.
    type :: fem_t
@@ -28,7 +28,7 @@ module atrito_assembly
       type(bodies_t) :: bodies                     !< with their equations, once these are numbered
       type(elastic_t), allocatable :: sections(:)  !< elastic constants, thickness and integration of each
       integer(ip), allocatable :: section_of(:)    !< (n_elements)
-      real(wp) :: grain = 0.0_wp                   !< [L] what the last printed digits may make of equal elements; 0: nothing
+      real(wp) :: digit_error = 0.0_wp             !< [L] what the last printed digits may make of equal elements; 0: nothing
       real(wp), allocatable :: heating(:)          !< (n_nodes) rise of the temperature; not allocated where nothing expands
       real(wp), allocatable :: own_strain(:, :)    !< (3, n_elements) e11, e22, e12 without stress; not allocated: none
    end type fem_t
@@ -70,11 +70,11 @@ module atrito_assembly
 contains
 
    !> What the last digits of printed coordinates may make of equal elements [L].
-   pure real(wp) function grain_of(x) result(grain)
+   pure real(wp) function digit_error_of(x) result(digit_error)
       real(wp), intent(in) :: x(:, :)              !< (2, n_nodes) [L]
 
-      grain = PRINTED*max(maxval(x), -minval(x), 0.0_wp)
-   end function grain_of
+      digit_error = PRINTED*max(maxval(x), -minval(x), 0.0_wp)
+   end function digit_error_of
 
    !> Column heights of a body's matrix; where it is not numbered for its profile, those that are to be expected if it were: a
    !> column reaches over two rows of nodes across the shorter side of the box round the body.
@@ -99,15 +99,15 @@ contains
    end subroutine body_profile
 
    !> Adds all elements of a body to its matrix.
-   subroutine assemble_body(fem, i_body, solver, grain, is_near)
+   subroutine assemble_body(fem, i_body, solver, digit_error, is_near)
       type(fem_t), intent(in) :: fem                  !< the body's elements, sections and equations are read
       integer(ip), intent(in) :: i_body               !< place in the list of bodies
       class(linear_solver_t), intent(inout) :: solver !< created with the profile of the body
-      real(wp), intent(in), optional :: grain         !< [L] elements that differ by no more may have one stiffness
+      real(wp), intent(in), optional :: digit_error   !< [L] elements that differ by no more may have one stiffness
       logical, intent(out), optional :: is_near       !< some have that are not equal
       type(element_store_t) :: store
 
-      call collect_elements(fem, fem%bodies%list(i_body)%elements, store, grain)
+      call collect_elements(fem, fem%bodies%list(i_body)%elements, store, digit_error)
       if (present(is_near)) is_near = store%is_near
       call solver%add_store(store)
    end subroutine assemble_body
@@ -116,17 +116,17 @@ contains
    !>
    !>     1. equations of each element
    !>     2. each is compared with the last different one before it, in chunks side by side (compare_chunks)
-   !>     3. where many differ, but few by more than the grain, near ones are taken as equal (look_for_near)
+   !>     3. where many differ, but few by more than the digit error, near ones are taken as equal (look_for_near)
    !>     4. matrices are numbered through all chunks, and each is computed once (compute_matrices)
    !>
    !> Equal elements have one matrix to the last bit: the first one's, so that equal fronts are equal for whoever compares numbers.
    !> A block of n equal elements costs n comparisons and one integration. What is not equal to the element before is not looked
    !> for farther back: meshes whose elements come in mixed order have more matrices than they need, and no other harm.
-   subroutine collect_elements(fem, elements, store, grain)
+   subroutine collect_elements(fem, elements, store, digit_error)
       type(fem_t), intent(in) :: fem               !< elements, sections and equations are read
       integer(ip), intent(in) :: elements(:)       !< of one body
       type(element_store_t), intent(out) :: store  !< a list of equations each, a matrix for those alike
-      real(wp), intent(in), optional :: grain      !< [L] those that differ by no more may have one in common, too
+      real(wp), intent(in), optional :: digit_error !< [L] those that differ by no more may have one in common, too
       type(chunk_t) :: chunks(chunk_count(size(elements, kind=ip)))
       integer(ip), allocatable :: different(:)     ! the element of each matrix
       integer(ip) :: i
@@ -145,7 +145,7 @@ contains
       end do
       !$omp end parallel do
       call compare_chunks(fem, elements, 0.0_wp, chunks, store%matrix_of)
-      if (present(grain)) call look_for_near(fem, elements, grain, chunks, store)
+      if (present(digit_error)) call look_for_near(fem, elements, digit_error, chunks, store)
       store%n_matrices = sum(chunks%n)
       allocate (different(store%n_matrices))
       !$omp parallel do schedule(dynamic) if (is_shared(store%n))
@@ -156,19 +156,19 @@ contains
       call compute_matrices(fem, different, store)
    end subroutine collect_elements
 
-   !> Where most elements differ from the one before, but few of them by more than the grain, the near ones are taken as equal.
-   subroutine look_for_near(fem, elements, grain, chunks, store)
+   !> Where most elements differ from the one before, but few by more than the digit error, the near ones are taken as equal.
+   subroutine look_for_near(fem, elements, digit_error, chunks, store)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: elements(:)
-      real(wp), intent(in) :: grain
+      real(wp), intent(in) :: digit_error
       type(chunk_t), intent(inout) :: chunks(:)
       type(element_store_t), intent(inout) :: store
       type(chunk_t) :: near_chunks(size(chunks))
       integer(ip), allocatable :: number(:)
 
-      if (.not. grain > 0.0_wp .or. sum(chunks%n) <= MANY*size(elements)) return
+      if (.not. digit_error > 0.0_wp .or. sum(chunks%n) <= MANY*size(elements)) return
       allocate (number(size(elements)))
-      call compare_chunks(fem, elements, grain, near_chunks, number)
+      call compare_chunks(fem, elements, digit_error, near_chunks, number)
       store%is_near = sum(near_chunks%n) <= FEW*sum(chunks%n)
       if (.not. store%is_near) return
       chunks = near_chunks
@@ -177,10 +177,10 @@ contains
 
    !> Compares every element with the last different one before it, chunks side by side. A chunk has to guess what came before it
    !> (the first element of all, which is right in a regular mesh), and is compared again when it turns out to be another.
-   subroutine compare_chunks(fem, elements, grain, chunks, number)
+   subroutine compare_chunks(fem, elements, digit_error, chunks, number)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: elements(:)
-      real(wp), intent(in) :: grain                !< [L] 0: equal but for rounding
+      real(wp), intent(in) :: digit_error          !< [L] 0: equal but for rounding
       type(chunk_t), intent(inout) :: chunks(:)
       integer(ip), intent(inout) :: number(:)      !< of the elements: the different ones of their chunk until there
       integer(ip) :: i
@@ -189,10 +189,10 @@ contains
       do while (any(chunks%is_due))
          !$omp parallel do schedule(dynamic) if (is_shared(size(elements, kind=ip)))
          do i = 1, size(chunks, kind=ip)
-            if (chunks(i)%is_due) call compare_chunk(fem, elements, grain, i, chunks(i), number)
+            if (chunks(i)%is_due) call compare_chunk(fem, elements, digit_error, i, chunks(i), number)
          end do
          !$omp end parallel do
-         call join_chunks(fem, elements, grain, number, chunks)
+         call join_chunks(fem, elements, digit_error, number, chunks)
       end do
    end subroutine compare_chunks
 
@@ -202,10 +202,10 @@ contains
    !> A chunk may begin in the middle of a run of equal elements. With the guess that the run before it ended with the first
    !> element of all, right in a regular mesh, no chunk is done twice; a chunk whose guess was wrong in a way that matters is done
    !> again. In the end every number is what one thread alone would have given.
-   pure subroutine compare_chunk(fem, elements, grain, i_chunk, chunk, number)
+   pure subroutine compare_chunk(fem, elements, digit_error, i_chunk, chunk, number)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: elements(:), i_chunk
-      real(wp), intent(in) :: grain
+      real(wp), intent(in) :: digit_error
       type(chunk_t), intent(inout) :: chunk
       integer(ip), intent(inout) :: number(:)
       type(form_t) :: form
@@ -216,7 +216,7 @@ contains
       chunk%last = chunk%before
       if (chunk%before > 0) call take_form(fem, elements(chunk%before), form)
       do i = first, last
-         if (.not. has_form(fem, elements(i), form, grain, may_turn=.true.)) then
+         if (.not. has_form(fem, elements(i), form, digit_error, may_turn=.true.)) then
             call take_form(fem, elements(i), form)
             chunk%n = chunk%n + 1
             chunk%last = i
@@ -226,10 +226,10 @@ contains
    end subroutine compare_chunk
 
    !> What came before each chunk; the chunks that it makes a difference to have to be compared again.
-   pure subroutine join_chunks(fem, elements, grain, number, chunks)
+   pure subroutine join_chunks(fem, elements, digit_error, number, chunks)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: elements(:), number(:)
-      real(wp), intent(in) :: grain
+      real(wp), intent(in) :: digit_error
       type(chunk_t), intent(inout) :: chunks(:)
       type(form_t) :: form
       integer(ip) :: i, first, last
@@ -244,7 +244,7 @@ contains
          chunks(i)%is_due = number(first) == 0
          if (chunks(i)%is_due) cycle
          call take_form(fem, elements(chunks(i)%before), form)
-         chunks(i)%is_due = has_form(fem, elements(first), form, grain, may_turn=.true.)
+         chunks(i)%is_due = has_form(fem, elements(first), form, digit_error, may_turn=.true.)
       end do
    end subroutine join_chunks
 
@@ -347,24 +347,24 @@ contains
 
    !> Whether an element has this form; where that is enough, a triangle also turned by 180 degrees, as every other one of a block
    !> is: their stiffness is the same to the last bit.
-   pure logical function has_form(fem, element, form, grain, may_turn)
+   pure logical function has_form(fem, element, form, digit_error, may_turn)
       type(fem_t), intent(in) :: fem               !< mesh and sections are read
       integer(ip), intent(in) :: element           !< place in the mesh
       type(form_t), intent(in) :: form             !< of another element, or empty
-      real(wp), intent(in) :: grain                !< [L] 0: equal but for rounding
+      real(wp), intent(in) :: digit_error          !< [L] 0: equal but for rounding
       logical, intent(in) :: may_turn              !< whether a triangle may be turned
 
       has_form = form%section == fem%section_of(element) .and. form%state == fem%mesh%state(element)
       if (.not. has_form) return
       if (form%has_hoop) has_form = abs(radius_of(fem%mesh, element) - form%radius) <= 2*EPS_MACH*form%radius
       if (.not. has_form) return
-      has_form = is_like_before(fem%mesh, element, form%shape, form%x, grain)
+      has_form = is_like_before(fem%mesh, element, form%shape, form%x, digit_error)
       if (IS_TAPERED(form%state)) then
          if (has_form) has_form = has_thickness(fem%mesh, element, form%thickness)
          return
       end if
       if (has_form .or. .not. may_turn .or. form%has_hoop .or. form%shape /= fem%mesh%shape(element)) return
-      if (side_count(fem%mesh, element) == 3) has_form = is_like_before(fem%mesh, element, form%shape, -form%x, grain)
+      if (side_count(fem%mesh, element) == 3) has_form = is_like_before(fem%mesh, element, form%shape, -form%x, digit_error)
    end function has_form
 
    !> The form of an element.
@@ -398,13 +398,13 @@ contains
    end function radius_of
 
    !> Whether an element has the shape of another one, within the rounding of the coordinates and never coarser than 1e-12 of the
-   !> element; or within a grain.
-   pure logical function is_like_before(mesh, element, shape, x, grain) result(alike)
+   !> element; or within a digit error.
+   pure logical function is_like_before(mesh, element, shape, x, digit_error) result(alike)
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: element
       integer(ip), intent(in) :: shape             !< of the other one; 0: there is none
       real(wp), intent(in) :: x(2, MOST_NODES)       !< of the other one, less those of its first node [L]
-      real(wp), intent(in) :: grain                !< [L]
+      real(wp), intent(in) :: digit_error          !< [L]
       real(wp) :: first(2), here(2), way(2), largest, size_of_element, difference
       integer(ip) :: k
 
@@ -421,7 +421,7 @@ contains
          size_of_element = max(size_of_element, abs(way(1)), abs(way(2)))
          difference = max(difference, abs(way(1) - x(1, k)), abs(way(2) - x(2, k)))
       end do
-      alike = difference <= max(min(2*EPS_MACH*largest, 1.0e-12_wp*size_of_element), min(grain, NEAR*size_of_element))
+      alike = difference <= max(min(2*EPS_MACH*largest, 1.0e-12_wp*size_of_element), min(digit_error, NEAR*size_of_element))
    end function is_like_before
 
 end module atrito_assembly

@@ -39,7 +39,7 @@ contains
       end associate
       piece%sections = fem%sections
       piece%section_of = fem%section_of(elements)
-      piece%grain = fem%grain
+      piece%digit_error = fem%digit_error
       if (allocated(fem%heating)) piece%heating = fem%heating(nodes)
    end subroutine take_piece
 

@@ -19,7 +19,7 @@ module atrito_restart_file
    private
    public :: restart_name, write_restart, read_restart
 
-   character(len=*), parameter :: FORMAT = 'restart file of '//PROGRAM_NAME//', format 1'
+   character(len=*), parameter :: FORMAT = 'restart file of '//PROGRAM_NAME//', format 2'
 
 contains
 
@@ -185,7 +185,7 @@ contains
       call exchange(archive, 'ends_step', state%ends_step)
       call exchange(archive, 'began', state%began)
       call exchange(archive, 'condition', state%condition)
-      call exchange(archive, 'grain', state%grain)
+      call exchange(archive, 'digit_error', state%digit_error)
       call exchange(archive, 'had_motion', state%had_motion)
       call exchange(archive, 'had_force', state%had_force)
       call exchange(archive, 'contact_form', state%contact_form)

@@ -151,8 +151,8 @@ contains
 
    !> Elements of all bodies in the numbers of the scene, and the springs that say which part of u is u_e.
    !>
-   !> Near elements share one matrix in the fronts (fem%grain); products take each element's own. The factor is then that of K~, and
-   !> as every step of the multipliers solves for a residual, the steps refine by themselves.
+   !> Near elements share one matrix in the fronts (fem%digit_error); products take each element's own. The factor is then that of
+   !> K~, and as every step of the multipliers solves for a residual, the steps refine by themselves.
    subroutine collect_scene(fem, numbering, store, spring_stiffness)
       type(fem_t), intent(in) :: fem
       type(scene_numbering_t), intent(in) :: numbering
@@ -163,7 +163,7 @@ contains
       integer(lp) :: k
       real(wp) :: diagonal(numbering%n), spring
 
-      call collect_elements(fem, [(e, e=1, fem%mesh%n_elements)], store, fem%grain)
+      call collect_elements(fem, [(e, e=1, fem%mesh%n_elements)], store, fem%digit_error)
       if (store%is_near) then
          ! fronts of the one, products of the other: every step of the iteration refines
          call collect_elements(fem, [(e, e=1, fem%mesh%n_elements)], own)

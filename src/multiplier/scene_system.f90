@@ -24,7 +24,7 @@ module atrito_scene_system
       type(scene_numbering_t) :: numbering
       logical :: is_near = .false.               !< fronts have one matrix for elements that are near, and not equal
       character(len=:), allocatable :: order     !< how the order of elimination was found
-      type(status_t), pointer :: trouble => null() !< of the first solve that failed, where one can: solve itself has no status
+      type(status_t), pointer :: failure => null() !< of the first solve that failed, where one can: solve itself has no status
    contains
       procedure(count_solving_bytes), deferred :: solving_bytes
       procedure :: check_solves => take_trouble
@@ -53,10 +53,10 @@ contains
       class(scene_system_t), intent(in) :: self
       type(status_t), intent(inout) :: status
 
-      if (.not. associated(self%trouble)) return
-      if (is_ok(self%trouble)) return
-      status = self%trouble
-      self%trouble = status_t()
+      if (.not. associated(self%failure)) return
+      if (is_ok(self%failure)) return
+      status = self%failure
+      self%failure = status_t()
    end subroutine take_trouble
 
    !> Lets go of the loads; what extends the type, of what other processes hold for it, too. The rest goes with the scene.

@@ -12,11 +12,11 @@ module atrito_motion_rows
    use atrito_joined_sets, only: find_lowest, join_sets
    use atrito_kinds, only: ip, wp
    use atrito_row_entries, only: motions_of_row, first_motions, work_on_motion, MOST_MODES
-   use atrito_sliding_motions, only: printed_grain
+   use atrito_sliding_motions, only: printed_digit_error
    use atrito_sparse_rows, only: sparse_rows_t
    implicit none (type, external)
    private
-   public :: motion_rows_t, build_motion_rows, join_motions, digits_of_deck, GRAINS, MOST_PART
+   public :: motion_rows_t, build_motion_rows, join_motions, digits_of_deck, DIGIT_ERRORS, MOST_PART
 
    !> G by the entries of its rows, and h.
    type, extends(sparse_rows_t) :: motion_rows_t
@@ -26,9 +26,9 @@ module atrito_motion_rows
       real(wp), allocatable :: doubt(:)          !< (n) part of a motion that the digits of the deck may show a row; left out: none
    end type motion_rows_t
 
-   real(wp), parameter :: GRAINS = 5.0_wp           !< by which the place of a force may be off
-   real(wp), parameter :: EXACT = 1.0e-14_wp        !< grain over coordinates of a deck that is not rounded to digits
-   real(wp), parameter :: LATTICE = 10.0_wp         !< length of a point in grains, of nodes that were not rounded
+   real(wp), parameter :: DIGIT_ERRORS = 5.0_wp     !< by which the place of a force may be off
+   real(wp), parameter :: EXACT = 1.0e-14_wp        !< digit error over coordinates of a deck that is not rounded to digits
+   real(wp), parameter :: LATTICE = 10.0_wp         !< length of a point in digit errors, of nodes that were not rounded
    real(wp), parameter :: MOST_PART = 2.5e-3_wp    !< a larger part of the forces was meant, whatever the digits
 
 contains
@@ -77,44 +77,44 @@ contains
       type(fem_t), intent(in) :: fem
       type(contact_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
-      real(wp) :: doubt(size(line%point)), grain(0:fem%bodies%n)
+      real(wp) :: doubt(size(line%point)), digit_error(0:fem%bodies%n)
       integer(ip) :: i, b
 
       doubt = 0.0_wp
-      grain(0) = digits_of(fem%mesh%x, rows)
+      digit_error(0) = digits_of(fem%mesh%x, rows)
       do b = 1, fem%bodies%n
-         grain(b) = max(grain(0), digits_of(fem%mesh%x(:, fem%bodies%list(b)%nodes), rows))
+         digit_error(b) = max(digit_error(0), digits_of(fem%mesh%x(:, fem%bodies%list(b)%nodes), rows))
       end do
-      if (.not. any(grain > 0.0_wp)) return
+      if (.not. any(digit_error > 0.0_wp)) return
       do i = 1, size(doubt, kind=ip)
          associate (j => line%point(i))
             if (j > line%n - line%n_bilateral) cycle
             associate (bodies => fem%bodies%of_node(rows%node(rows%first(j):rows%first(j + 1) - 1)))
-               doubt(i) = min(GRAINS*maxval(grain(bodies))/rows%reach(j), MOST_PART)
+               doubt(i) = min(DIGIT_ERRORS*maxval(digit_error(bodies))/rows%reach(j), MOST_PART)
             end associate
          end associate
       end do
    end function place_doubt
 
    !> Half a unit of the last digit of the coordinates [L]; 0: they are not rounded.
-   pure real(wp) function digits_of_deck(fem, rows) result(grain)
+   pure real(wp) function digits_of_deck(fem, rows) result(digit_error)
       type(fem_t), intent(in) :: fem                !< places of the nodes
       type(contact_rows_t), intent(in) :: rows      !< lengths of the points
 
-      grain = digits_of(fem%mesh%x, rows)
+      digit_error = digits_of(fem%mesh%x, rows)
    end function digits_of_deck
 
    !> The same of some nodes.
-   pure real(wp) function digits_of(x, rows) result(grain)
+   pure real(wp) function digits_of(x, rows) result(digit_error)
       real(wp), intent(in) :: x(:, :)               !< (2, nodes) [L]
       type(contact_rows_t), intent(in) :: rows
 
-      grain = 0.0_wp
+      digit_error = 0.0_wp
       associate (n => rows%n - rows%n_bilateral)
          if (n == 0) return
-         grain = printed_grain(x)
-         if (grain <= EXACT*maxval(abs(x))) grain = 0.0_wp
-         if (any(rows%reach(:n) < LATTICE*grain)) grain = 0.0_wp
+         digit_error = printed_digit_error(x)
+         if (digit_error <= EXACT*maxval(abs(x))) digit_error = 0.0_wp
+         if (any(rows%reach(:n) < LATTICE*digit_error)) digit_error = 0.0_wp
       end associate
    end function digits_of
 

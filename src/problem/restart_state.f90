@@ -39,7 +39,7 @@ module atrito_restart_state
       logical :: ends_step = .false.                !< the increment came to the end of the step
       real(wp) :: began = 0.0_wp                    !< when the step began, time of the history
       real(wp) :: condition = 1.0_wp                !< the largest so far
-      real(wp) :: grain = 0.0_wp                    !< to which stiffnesses are taken as equal
+      real(wp) :: digit_error = 0.0_wp              !< to which stiffnesses are taken as equal
       real(wp), allocatable :: had_motion(:), had_force(:) !< (bodies) the largest so far [L], [F]
       integer(ip) :: contact_form = 0               !< CONTACT_*, of the scene
       character(len=:), allocatable :: contact_reason !< why

@@ -9,7 +9,7 @@
 !>    elements.
 module atrito_scene_builder
    use atrito_kinds, only: ip, wp
-   use atrito_assembly, only: fem_t, grain_of
+   use atrito_assembly, only: fem_t, digit_error_of
    use atrito_bilateral_rows, only: bilateral_rows_t
    use atrito_bodies, only: bodies_t, find_bodies, number_equations, find_rigid_modes
    use atrito_body_names, only: name_bodies
@@ -28,7 +28,7 @@ contains
    !> Mesh and sections, prescribed dofs and values, and the points of every pair; build_bodies adds the bodies.
    !>
    !> The points are those of the check of the deck, which has paired the sides; a model that was made without a deck is
-   !> paired here. grain is what the coordinates of the mesh are known to: elements that differ by no more have one
+   !> paired here. digit_error is what the coordinates of the mesh are known to: elements that differ by no more have one
    !> stiffness.
    subroutine build_scene(model, step, fem, held, value, points)
       type(model_t), intent(in), target :: model    !< as refined; its mesh is kept by pointer
@@ -41,7 +41,7 @@ contains
 
       fem%mesh => model%mesh
       if (has_moving_surfaces(model)) fem%mesh => model%solver_mesh
-      fem%grain = grain_of(model%mesh%x(:, :model%mesh%n_nodes))
+      fem%digit_error = digit_error_of(model%mesh%x(:, :model%mesh%n_nodes))
       fem%section_of = model%section_of
       fem%sections = [(elasticity_of(model%sections(i), model%materials(model%sections(i)%material)), &
                        i=1, size(model%sections, kind=ip))]

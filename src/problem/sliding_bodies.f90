@@ -14,14 +14,14 @@ module atrito_sliding_bodies
    use atrito_dense, only: eigen_symmetric
    use atrito_kinds, only: ip, wp
    use atrito_points, only: contact_points_t, sliding_t
-   use atrito_sliding_motions, only: printed_grain
+   use atrito_sliding_motions, only: printed_digit_error
    use atrito_turned_points, only: is_along, turn_points
    implicit none (type, external)
    private
    public :: let_slide, balance_loads, motions_left, turn_supports
 
-   real(wp), parameter :: GRAINS = 5.0_wp           !< by which the place of a force may be off
-   real(wp), parameter :: EXACT = 1.0e-13_wp        !< grain over extent of a deck that is not rounded to digits
+   real(wp), parameter :: DIGIT_ERRORS = 5.0_wp     !< by which the place of a force may be off
+   real(wp), parameter :: EXACT = 1.0e-13_wp        !< digit error over extent of a deck that is not rounded to digits
 
    real(wp), parameter :: NONE_HELD = 1.0e-7_wp     !< what a support sees of a motion that it leaves
    real(wp), parameter :: ON_LINE = 1.0e-14_wp      !< of the rotation that it leaves: what a support on the line sees of it
@@ -58,7 +58,7 @@ contains
             ! along an axis rows are exact, and friction holds what the digits drive
             associate (sliding => points(i)%sliding)
                if (.not. sliding%is_round .and. (rubs(i) .or. any(abs(sliding%direction) <= 0.0_wp))) cycle
-               if (sliding%grain <= EXACT*sliding%extent) cycle
+               if (sliding%digit_error <= EXACT*sliding%extent) cycle
             end associate
             call add_motion(motion, fem%bodies%list(b(k)))
          end do
@@ -134,11 +134,11 @@ contains
       real(wp) :: motion(4), way(2)
 
       motion(:3) = [sliding%direction, 0.0_wp]
-      motion(4) = GRAINS*sliding%grain/sliding%extent
+      motion(4) = DIGIT_ERRORS*sliding%digit_error/sliding%extent
       if (.not. sliding%is_round) return
       way = body%centre - sliding%centre
       motion(:3) = [-way(2), way(1), body%size]/body%size
-      motion(4) = GRAINS*sliding%grain/body%size
+      motion(4) = DIGIT_ERRORS*sliding%digit_error/body%size
    end function motion_of_body
 
    !> Whether the supports of a body allow a motion, to the digits: what is left of it when its parts along the motions
@@ -291,16 +291,16 @@ contains
       type(fem_t), intent(in) :: fem !< bodies with their rigid modes
       type(bilateral_rows_t), intent(in) :: bilateral !< supports along their own directions
       type(bilateral_rows_t), intent(out) :: turned !< all rows
-      real(wp) :: off(bilateral%n), across(2, bilateral%n), grain
+      real(wp) :: off(bilateral%n), across(2, bilateral%n), digit_error
       integer(ip) :: ends(2, bilateral%n), i
 
       turned = bilateral
       if (bilateral%n == 0) return
       if (.not. any(bilateral%kind(:bilateral%n) == ROW_SUPPORT)) return
       off = 0.0_wp
-      grain = printed_grain(fem%mesh%x)
+      digit_error = printed_digit_error(fem%mesh%x)
       do i = 1, fem%bodies%n
-         if (.not. fem%bodies%list(i)%is_rigid) call find_line(fem, bilateral, i, grain, off, across, ends)
+         if (.not. fem%bodies%list(i)%is_rigid) call find_line(fem, bilateral, i, digit_error, off, across, ends)
       end do
       if (all(off == 0.0_wp)) return
       call begin_rows(turned)
@@ -321,11 +321,11 @@ contains
    end subroutine turn_supports
 
    !> How far the supports of a body are off a line along which they leave a rotation; nothing where there is none.
-   subroutine find_line(fem, bilateral, b, grain, off, across, ends)
+   subroutine find_line(fem, bilateral, b, digit_error, off, across, ends)
       type(fem_t), intent(in) :: fem
       type(bilateral_rows_t), intent(in) :: bilateral
       integer(ip), intent(in) :: b                  !< body
-      real(wp), intent(in) :: grain                 !< of the mesh [L]
+      real(wp), intent(in) :: digit_error           !< of the mesh [L]
       real(wp), intent(inout) :: off(:)             !< (rows) what a row sees of a rotation of one [L]
       real(wp), intent(inout) :: across(:, :)       !< (2, rows) perp(x_b - x_a)/|x_b - x_a|^2 [1/L]
       integer(ip), intent(inout) :: ends(:, :)      !< (2, rows) a and b
@@ -335,7 +335,7 @@ contains
       integer(ip) :: i, k, own_ends(2)
 
       associate (body => fem%bodies%list(b), x => fem%mesh%x)
-         doubt = GRAINS*max(grain, printed_grain(x(:, body%nodes)))/body%size
+         doubt = DIGIT_ERRORS*max(digit_error, printed_digit_error(x(:, body%nodes)))/body%size
          call see_motions(fem, bilateral, b, left, rows, seen, doubt)
          if (size(rows) < 2 .or. size(left) == 0) return
          ! the combination that turns most

@@ -29,7 +29,7 @@ contains
       call put(buffer, size(piece%sections, kind=ip))
       call put(buffer, transfer(piece%sections, [0_ip]))
       call put(buffer, piece%section_of)
-      call put(buffer, piece%grain)
+      call put(buffer, piece%digit_error)
       call put(buffer, allocated(piece%heating))
       if (allocated(piece%heating)) call put(buffer, piece%heating)
    end subroutine put_piece
@@ -61,7 +61,7 @@ contains
       call take(buffer, numbers)
       piece%sections = transfer(numbers, mold, n)
       call take(buffer, piece%section_of)
-      call take(buffer, piece%grain)
+      call take(buffer, piece%digit_error)
       call take(buffer, is_there)
       if (is_there) call take(buffer, piece%heating)
    end subroutine receive_piece

@@ -216,7 +216,7 @@ contains
       wanted(pack(at, at > 0)) = .true.
       elements = pack([(e, e=1, fem%mesh%n_elements)], [(any(wanted(fem%mesh%nodes(:fem%mesh%shape(e), e))), &
                                                          e=1, fem%mesh%n_elements)])
-      call collect_elements(fem, elements, store, fem%grain)
+      call collect_elements(fem, elements, store, fem%digit_error)
       do e = 1, store%n
          do k = store%start(e) + 1, store%start(e + 1)
             if (store%equations(k) > 0) store%equations(k) = store%equations(k) &

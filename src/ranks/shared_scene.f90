@@ -24,7 +24,7 @@ module atrito_shared_scene
    private
    public :: shared_scene_t, share_scene
 
-   type(status_t), target :: trouble             !< of the first solve with S that failed, until it is taken (scene_system_t)
+   type(status_t), target :: failure             !< of the first solve with S that failed, until it is taken (scene_system_t)
 
    !> A scene in parts (scene_system_t).
    type, extends(scene_system_t) :: shared_scene_t
@@ -84,7 +84,7 @@ contains
       scene%shared = pack([(i, i=1, scene%n)], cut%shared_number > 0)
       allocate (scene%parts(size(rank)))
       scene%parts%rank = rank
-      scene%trouble => trouble
+      scene%failure => failure
       call hand_over()
       call hear_assembled(scene, status)
 
@@ -285,7 +285,7 @@ contains
       call take(answer, found)
       x = 0.0_wp
       if (is_ok(status)) x = found
-      if (is_ok(trouble)) trouble = status
+      if (is_ok(failure)) failure = status
    end subroutine solve_schur
 
    !> All ranks give back what they have.

@@ -24,7 +24,7 @@ contains
       real(wp) :: began
 
       call require(wrong, state%step >= 1 .and. state%step <= size(model%steps), 'step')
-      call require(wrong, is_finite([state%step_time, state%length, state%began, state%condition, state%grain, &
+      call require(wrong, is_finite([state%step_time, state%length, state%began, state%condition, state%digit_error, &
                                      state%last%step_time]), 'times')
       if (allocated(wrong)) return                   ! what is no number may not be compared
       associate (step => model%steps(state%step), way => model%steps(state%step)%increments)
@@ -34,7 +34,7 @@ contains
          call require(wrong, state%ends_step .eqv. state%step_time >= way%period, 'ends_step')
          call require(wrong, is_same_time(state%began, began), 'began')
          call require(wrong, state%length > 0.0_wp, 'length')
-         call require(wrong, state%condition >= 0.0_wp .and. state%grain >= 0.0_wp, 'condition')
+         call require(wrong, state%condition >= 0.0_wp .and. state%digit_error >= 0.0_wp, 'condition')
          call require(wrong, state%contact_form == CONTACT_DENSE .or. state%contact_form == CONTACT_SPARSE, 'contact_form')
          call require(wrong, is_plain(state%contact_reason) .and. allocated(state%contact_reason), 'contact_reason')
          call require(wrong, is_begun(state%from, step%prescribed), 'from')

@@ -9,7 +9,8 @@ module atrito_pairing
    use atrito_plane_state, only: compliance_matrix, COMPONENTS
    use atrito_points, only: contact_points_t, sliding_t
    use atrito_mesh, only: is_revolved
-   use atrito_sliding_motions, only: chords_t, list_chords, find_sliding, note_doubt, printed_grain, serves, adopted, sharpness
+   use atrito_sliding_motions, only: chords_t, list_chords, find_sliding, note_doubt, printed_digit_error, serves, adopted, &
+                                     sharpness
    use atrito_sorting, only: sorted_places
    implicit none (type, external)
    private
@@ -85,19 +86,19 @@ contains
       type(master_t), pointer :: master
       logical :: is_master(size(model%surfaces)), is_done
       real(wp), allocatable :: thickness(:)            ! of the elements [L]
-      real(wp) :: grain                                ! of coordinates of few digits [L]
+      real(wp) :: digit_error                          ! of coordinates of few digits [L]
       integer(ip) :: i
 
       allocate (points(size(slaves)), masters(size(model%surfaces)))
       if (present(chords)) allocate (chords(size(slaves)))
       if (size(points) == 0) return
-      grain = printed_grain(model%mesh%x)
-      if (grain <= EPS_MACH*maxval(abs(model%mesh%x))) grain = 0.0_wp
+      digit_error = printed_digit_error(model%mesh%x)
+      if (digit_error <= EPS_MACH*maxval(abs(model%mesh%x))) digit_error = 0.0_wp
       thickness = model%sections(model%section_of)%thickness
       is_master = .false.
       is_master(partners) = .true.
       do i = 1, size(masters, kind=ip)
-         if (is_master(i)) call make_master(model, i, masters(i), grain)
+         if (is_master(i)) call make_master(model, i, masters(i), digit_error)
       end do
       do i = 1, size(points, kind=ip)
          associate (slave => model%surfaces(slaves(i))%faces, others => model%surfaces(partners(i))%faces, mesh => model%mesh)
@@ -118,27 +119,27 @@ contains
             if (.not. is_done) call pair_by_mortar(mesh, thickness, slave, others, master, face_compliance(model, slave), &
                                                    face_compliance(model, others), points(i))
             if (present(chords)) then
-               call list_chords(mesh, slave, others, masters(partners(i)), points(i), grain, chords(i))
-               call note_doubt(mesh, slave, chords(i)%grain, points(i))
+               call list_chords(mesh, slave, others, masters(partners(i)), points(i), digit_error, chords(i))
+               call note_doubt(mesh, slave, chords(i)%digit_error, points(i))
             end if
          end associate
       end do
    end subroutine pair_surfaces
 
    !> A surface as the master of pairs: its faces or segments, with what finds the nearest of them.
-   subroutine make_master(model, i, master, grain)
+   subroutine make_master(model, i, master, digit_error)
       type(model_t), intent(in) :: model               !< surfaces and mesh are read
       integer(ip), intent(in) :: i                     !< the surface
       type(master_t), intent(out) :: master            !< of faces, or of segments and arcs
-      real(wp), intent(in), optional :: grain          !< to which the nodes of the mesh are known [L]; left out: all digits
+      real(wp), intent(in), optional :: digit_error    !< to which the nodes of the mesh are known [L]; left out: all digits
 
       associate (surface => model%surfaces(i))
          if (surface%kind == SURFACE_SEGMENTS) then
             call master_of_segments(surface%points, master, surface%is_arc, surface%centre)
          else
-            call master_of_faces(model%mesh, surface%faces, master, grain)
+            call master_of_faces(model%mesh, surface%faces, master, digit_error)
          end if
-         if (present(grain)) master%grain = grain
+         if (present(digit_error)) master%digit_error = digit_error
       end associate
    end subroutine make_master
 
