@@ -70,8 +70,8 @@ contains
       is_seen = faces_seen(mesh, slave, master, points)
       ! nodes about the origin may have few digits, since the others have not many more
       chords%digit_error = max(digit_error, printed_digit_error(reshape([mesh%x(:, points%entry), &
-                                                       master%a(:, pack([(i, i=1, master%n)], is_seen))], &
-                                                      [2, size(points%entry) + count(is_seen)])))
+                                                                         master%a(:, pack([(i, i=1, master%n)], is_seen))], &
+                                                                        [2, size(points%entry) + count(is_seen)])))
       used = 1
       do i = 1, slave%n                             ! the list of those that are used has the same order
          if (used > size(points%faces)) exit
@@ -363,8 +363,8 @@ contains
       if (serves) serves = all([(slides(chords, i, other) .or. .not. slides(chords, i, own), i=1, chords%n)])
    end function serves
 
-   !> How sharply the chords of a pair tell its motion: their number, of a rotation; the longest one that slides, in digit errors, of
-   !> a translation, since a node that is off by g turns a chord by g/h.
+   !> How sharply the chords of a pair tell its motion: their number, of a rotation; the longest one that slides, in digit
+   !> errors, of a translation, since a node that is off by g turns a chord by g/h.
    pure integer(lp) function sharpness(chords, motion)
       type(chords_t), intent(in) :: chords
       type(sliding_t), intent(in) :: motion         !< of the pair

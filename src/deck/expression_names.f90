@@ -1,5 +1,5 @@
-!> The names and numbers in the text of an expression, the names that it knows by itself, and those that are no arithmetic, with what
-!> stands in parentheses behind them: `u2(12)`, `max(mises, BEAM)`. What these mean is not known here.
+!> The names and numbers in the text of an expression, the names that it knows by itself, and those that are no arithmetic, with
+!> what stands in parentheses behind them: `u2(12)`, `max(mises, BEAM)`. What these mean is not known here.
 module atrito_expression_names
    use atrito_strings, only: string_t, same_name, append_string, replaced
    implicit none (type, external)

@@ -209,7 +209,8 @@ contains
 
    contains
 
-      !> Conditions that are nearly the same are met by what the way to them rounds to: the least step meets them to their own digits.
+      !> Conditions that are nearly the same are met by what the way to them rounds to: the least step meets them to their own
+      !> digits.
       subroutine go_onto_planes()
          real(wp), allocatable :: planes(:, :)
          real(wp) :: step(n)

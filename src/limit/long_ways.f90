@@ -1,5 +1,5 @@
-!> What the rounding of a long way leaves. Where rigid motions are 1e5 times the strains, the rows that hold are off by EPS_MACH times
-!> the way, far more than their own rounding; and points that should just touch overlap by as much.
+!> What the rounding of a long way leaves. Where rigid motions are 1e5 times the strains, the rows that hold are off by EPS_MACH
+!> times the way, far more than their own rounding; and points that should just touch overlap by as much.
 module atrito_long_ways
    use atrito_bound_qp, only: FREE, AT_LOWER
    use atrito_contact_line, only: rest_of
@@ -20,8 +20,9 @@ module atrito_long_ways
 
 contains
 
-   !> After a long way: rows that hold are closed where their bodies have moved (others are exact to their own rounding, which may be
-   !> far less), then open points that the rounding of the way has made overlap, with what holds the motions that they see.
+   !> After a long way: rows that hold are closed where their bodies have moved (others are exact to their own rounding, which
+   !> may be far less), then open points that the rounding of the way has made overlap, with what holds the motions that they
+   !> see.
    subroutine take_rounding_off(data, rows, group, way, u, holds, solution)
       type(scene_data_t), intent(in) :: data
       type(motion_rows_t), intent(in) :: rows

@@ -192,8 +192,8 @@ contains
 
    contains
 
-      !> Anderson's mixing of the bound, once the forces have come. Near a solution differences that are round-off lead away: then it
-      !> begins anew.
+      !> Anderson's mixing of the bound, once the forces have come. Near a solution differences that are round-off lead away:
+      !> then it begins anew.
       subroutine mix_bound()
          logical :: leads_away
 

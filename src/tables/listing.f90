@@ -96,7 +96,7 @@ contains
          call describe_rows(page, model, last)
          call add_heading(page, '6  REACTIONS AND EQUILIBRIUM')
          if (has_history(model, history)) call add_line(page, '   at the end: '// &
-                                                                  increment_name(last%step, last%increment, last%time))
+                                                        increment_name(last%step, last%increment, last%time))
          call add_equilibrium(page, model, last, scales)
          call describe_extremes(page, last, scales)
          call add_heading(page, '7  WHAT WAS PRINTED')

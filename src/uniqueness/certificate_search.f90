@@ -266,9 +266,10 @@ contains
    !>
    !>     r <- R z_j,     r <- r - sum_i (z_i' r) H z_i,     z_{j+1} = H^-1 r/|r|,     |r|^2 = r' H^-1 r.
    !>
-   !> H z_{j+1} is that r/|r|, so H itself is never multiplied by, and its Cholesky factor is all that is wanted of it. On the vectors
-   !> of the steps R is a small matrix T with z_i'R z_j as entries; its largest eigenvalue is a lower bound of the one of all vectors,
-   !> and after a few steps near it. (All vectors are kept orthogonal: there are few.) A step costs some 5 n^2 multiplications.
+   !> H z_{j+1} is that r/|r|, so H itself is never multiplied by, and its Cholesky factor is all that is wanted of it. On the
+   !> vectors of the steps R is a small matrix T with z_i'R z_j as entries; its largest eigenvalue is a lower bound of the one
+   !> of all vectors, and after a few steps near it. (All vectors are kept orthogonal: there are few.) A step costs some 5 n^2
+   !> multiplications.
    !>
    !> What is found is a lower bound and no more. Whoever wants a proof factors H - R/lambda.
    !>

@@ -314,8 +314,8 @@ contains
       end do
    end function has_columns
 
-   ! Decks as they were run that an older atrito wrote: they do not say so, but the listing beside them has their digest, in which the
-   ! copies of meshes are counted, too.
+   ! Decks as they were run that an older atrito wrote: they do not say so, but the listing beside them has their digest, in
+   ! which the copies of meshes are counted, too.
 
    !> The name of the deck of which a file is a copy, by the file's name: 'a' of 'a.run.inp', 'a.run.msh' and 'a.run-2.msh'; ''
    !> where it has another form.

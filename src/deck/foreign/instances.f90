@@ -390,7 +390,8 @@ contains
       end do
    end subroutine note_unused
 
-   !> The numbers of a deck in parts: those of each instance begin at 1 again, in the model each node and element has one of its own.
+   !> The numbers of a deck in parts: those of each instance begin at 1 again, in the model each node and element has one of its
+   !> own.
    !>
    !> The first scope with nodes keeps its numbers. To those of the next ones a power of ten is added, its double and so on: the
    !> least power that is greater than any number; or, where there is no room for that, what fits.

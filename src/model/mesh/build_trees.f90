@@ -126,8 +126,8 @@ contains
 
    end function card_of_trees
 
-   !> Nodes of the deck that stay opposite to each other when its elements are cut: those of both sides of a contact pair or a tie that
-   !> face each other one by one, and those that an equation of two nodes joins, as on periodic sides.
+   !> Nodes of the deck that stay opposite to each other when its elements are cut: those of both sides of a contact pair or a
+   !> tie that face each other one by one, and those that an equation of two nodes joins, as on periodic sides.
    !>
    !> Of each node the least of those that it stays with, itself where there are no others.
    pure function partner_nodes(model) result(partner)

@@ -34,8 +34,8 @@ module atrito_model
    character(len=6), parameter :: KERNEL_NAME(2) = ['POINTS', 'LINE  ']
    integer(ip), parameter :: LOAD_PRESSURE = 1, LOAD_BODY = 2, LOAD_TRACTION = 3, LOAD_HYDROSTATIC = 4, LOAD_LINEAR = 5
 
-   !> Where results come from, in words: what the head of every table has beside the deck's name and heading. A component that is not
-   !> allocated has no line there.
+   !> Where results come from, in words: what the head of every table has beside the deck's name and heading. A component that
+   !> is not allocated has no line there.
    type :: provenance_t
       character(len=:), allocatable :: parameters    !< of the deck with their values: 'nu = 0.3, q = 10 (--set)'
       character(len=:), allocatable :: options       !< of the command line that change results or tables: '--refine 1'
