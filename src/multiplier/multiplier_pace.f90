@@ -197,7 +197,7 @@ contains
       subroutine mix_bound()
          logical :: leads_away
 
-         leads_away = loop%mixed <= STALE_DISTANCE .and. loop%distance%bound > FARTHER*loop%mixed
+         leads_away = loop%mixed <= STALE_DISTANCE .and. loop%distance%bound/FARTHER > loop%mixed
          loop%mixed = loop%distance%bound
          if ((loop%can_wait .and. loop%lagging > 0) .or. leads_away) then
             call anderson%reset()
