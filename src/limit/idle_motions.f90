@@ -18,7 +18,7 @@ module atrito_idle_motions
    use atrito_least_motions, only: measure_motions, take_least
    use atrito_load_digits, only: is_within_digits, take_out
    use atrito_long_ways, only: take_rounding_off
-   use atrito_motion_rows, only: motion_rows_t, build_motion_rows, join_motions
+   use atrito_motion_rows, only: motion_rows_t, build_motion_rows, note_digits, join_motions, MOST_PART
    use atrito_own_axes, only: prove_in_own_axes
    use atrito_scene_data, only: scene_data_t
    use atrito_sparse_rows, only: add_transposed, multiply_rows, transposed_sizes
@@ -194,6 +194,7 @@ contains
       if (.not. (allocated(solution%inner%motion) .and. allocated(solution%state%q))) return
       call build_motion_rows(data%fem, data%rows, data%line, data%f, rows)
       if (size(solution%inner%motion) /= rows%n_columns .or. size(solution%state%q) /= rows%n) return
+      call note_digits(data%fem, data%rows, data%line, rows)
       if (.not. any(rows%doubt > 0.0_wp)) return
       associate (v => solution%inner%motion)
          if (.not. sum(v**2) > 0.0_wp) return
@@ -263,32 +264,39 @@ contains
    !> the deck make of them.
    subroutine doubt_loads(data, rows, group, idle, holds, tau, solution, has_changed)
       type(scene_data_t), intent(inout) :: data
-      type(motion_rows_t), intent(in) :: rows
+      type(motion_rows_t), intent(inout) :: rows    !< whose doubt is noted
       integer(ip), intent(in) :: group(:)           !< (k)
       real(wp), intent(in) :: idle(:, :)            !< (k, motions)
       logical, intent(in) :: holds(:)               !< (m)
       real(wp), intent(in) :: tau(:)                !< friction bounds at the points [F/L^2]
       type(contact_solution_t), intent(in) :: solution
       logical, intent(out) :: has_changed
-      real(wp) :: largest(rows%n), force
+      real(wp) :: largest(rows%n), force(rows%n)    ! that each row bears or may bear by friction
       logical :: is_sure(rows%n), is_due            ! larger forces than those that are dropped in any case
       real(wp), allocatable :: more(:, :)
       integer(ip) :: i
 
       has_changed = .false.
-      if (.not. any(rows%doubt > 0.0_wp)) return
       largest = largest_forces(rows, solution%state%q)
+      force = abs(solution%state%q)
+      do i = 1, rows%n
+         associate (j => data%line%point(i))
+            if (data%line%tangential(j) == i) force(i) = tau(j)*data%line%weight(j) ! what friction there may hold
+         end associate
+      end do
+      if (.not. any(holds .and. force > NO_FORCE*largest .and. force <= MOST_PART*largest)) return
+      call note_digits(data%fem, data%rows, data%line, rows)
+      if (.not. any(rows%doubt > 0.0_wp)) return
       is_sure = holds
       is_due = .false.
       do i = 1, rows%n
          if (.not. (holds(i) .and. rows%doubt(i) > 0.0_wp) .or. rows%first(i + 1) == rows%first(i)) cycle
          associate (j => data%line%point(i), most => largest(i))
-            force = abs(solution%state%q(i))
-            if (data%line%tangential(j) == i) force = tau(j)*data%line%weight(j) ! what friction there may hold
-            is_sure(i) = force > rows%doubt(i)*most
+            is_sure(i) = force(i) > rows%doubt(i)*most
             ! what is dropped is felt by supports along directions of their own, and by friction
-            is_due = is_due .or. (.not. is_sure(i) .and. force > merge(NO_FORCE, dropped_part(data, i), data%line%n_bilateral > 0 &
-                                                                       .or. data%line%law(j)%kind /= FRICTION_NONE)*most)
+            is_due = is_due .or. (.not. is_sure(i) .and. &
+                                  force(i) > merge(NO_FORCE, dropped_part(data, i), data%line%n_bilateral > 0 &
+                                                   .or. data%line%law(j)%kind /= FRICTION_NONE)*most)
          end associate
       end do
       if (.not. is_due) return

@@ -16,7 +16,7 @@ module atrito_motion_rows
    use atrito_sparse_rows, only: sparse_rows_t
    implicit none (type, external)
    private
-   public :: motion_rows_t, build_motion_rows, join_motions, digits_of_deck, DIGIT_ERRORS, MOST_PART
+   public :: motion_rows_t, build_motion_rows, note_digits, join_motions, digits_of_deck, DIGIT_ERRORS, MOST_PART
 
    !> G by the entries of its rows, and h.
    type, extends(sparse_rows_t) :: motion_rows_t
@@ -68,33 +68,34 @@ contains
       n = motions%first(motions%n + 1) - 1
       motions%column = motions%column(:n)
       motions%value = motions%value(:n)
-      motions%doubt = place_doubt(fem, rows, line)
    end subroutine build_motion_rows
 
-   !> Of each unknown force, the part of the largest one that the digits may make, which is the part of a motion of the bodies that
-   !> its row may see by them; 0: none, as of joints. The nodes of one of its bodies may have few digits where others have all.
-   pure function place_doubt(fem, rows, line) result(doubt)
-      type(fem_t), intent(in) :: fem
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      real(wp) :: doubt(size(line%point)), digit_error(0:fem%bodies%n)
+   !> Of each unknown force, the part of the largest one that the digits may make (motions%doubt), which is the part of a motion of
+   !> the bodies that its row may see by them; 0: none, as of joints. The nodes of one of its bodies may have few digits where
+   !> others have all. Asked for by itself, as it goes over the digits of all coordinates.
+   pure subroutine note_digits(fem, rows, line, motions)
+      type(fem_t), intent(in) :: fem                !< places of the nodes, bodies
+      type(contact_rows_t), intent(in) :: rows      !< nodes and lengths of the points
+      type(contact_line_t), intent(in) :: line      !< which unknown is of which point
+      type(motion_rows_t), intent(inout) :: motions !< rows of these unknowns
+      real(wp) :: digit_error(0:fem%bodies%n)
       integer(ip) :: i, b
 
-      doubt = 0.0_wp
+      motions%doubt = spread(0.0_wp, 1, motions%n)
       digit_error(0) = digits_of(fem%mesh%x, rows)
       do b = 1, fem%bodies%n
          digit_error(b) = max(digit_error(0), digits_of(fem%mesh%x(:, fem%bodies%list(b)%nodes), rows))
       end do
       if (.not. any(digit_error > 0.0_wp)) return
-      do i = 1, size(doubt, kind=ip)
+      do i = 1, motions%n
          associate (j => line%point(i))
             if (j > line%n - line%n_bilateral) cycle
             associate (bodies => fem%bodies%of_node(rows%node(rows%first(j):rows%first(j + 1) - 1)))
-               doubt(i) = min(DIGIT_ERRORS*maxval(digit_error(bodies))/rows%reach(j), MOST_PART)
+               motions%doubt(i) = min(DIGIT_ERRORS*maxval(digit_error(bodies))/rows%reach(j), MOST_PART)
             end associate
          end associate
       end do
-   end function place_doubt
+   end subroutine note_digits
 
    !> Half a unit of the last digit of the coordinates [L]; 0: they are not rounded.
    pure real(wp) function digits_of_deck(fem, rows) result(digit_error)
