@@ -15,7 +15,7 @@ module atrito_load_digits
    use atrito_dense, only: solve_lu
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: face_nodes
-   use atrito_motion_rows, only: motion_rows_t, digits_of_deck, DIGIT_ERRORS, MOST_PART
+   use atrito_motion_rows, only: motion_rows_t, contact_digit_error, DIGIT_ERRORS, MOST_PART
    use atrito_row_entries, only: first_motions, modes_at_node
    use atrito_scene_data, only: scene_data_t, reload
    use atrito_sparse_rows, only: transposed_sizes
@@ -70,7 +70,7 @@ contains
             most = most + MOST_PART*maxval([0.0_wp, own])*sum(abs(v(first(b):first(b + 1) - 1)))
          end associate
       end do
-      allowed = min(DIGIT_ERRORS*digits_of_deck(data%fem, data%rows)*allowed, most)
+      allowed = min(DIGIT_ERRORS*contact_digit_error(data%fem%mesh%x, data%rows)*allowed, most)
       is_within_digits = abs(dot_product(v, rows%work)) <= allowed
 
    contains

@@ -280,9 +280,13 @@ contains
 
       ! e goes on from step to step where states stand: of motions far larger than the strains x has lost digits that e has
       de = 0.0_wp
-      if (holds) call set_held_forces(system, bounds, multipliers, state)
-      if (.not. holds .and. multipliers%changed) call set_forces(system, bounds, multipliers, state)
-      if (.not. (holds .or. multipliers%changed)) call set_forces(system, bounds, multipliers, state, de)
+      if (holds) then
+         call set_held_forces(system, bounds, multipliers, state)
+      else if (multipliers%changed) then
+         call set_forces(system, bounds, multipliers, state)
+      else
+         call set_forces(system, bounds, multipliers, state, de)
+      end if
       multipliers%settled = .false.
       multipliers%changed = .false.
       do newton = 1, MOST_NEWTON

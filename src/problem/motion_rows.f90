@@ -16,7 +16,7 @@ module atrito_motion_rows
    use atrito_sparse_rows, only: sparse_rows_t
    implicit none (type, external)
    private
-   public :: motion_rows_t, build_motion_rows, note_digits, join_motions, digits_of_deck, DIGIT_ERRORS, MOST_PART
+   public :: motion_rows_t, build_motion_rows, note_digits, join_motions, contact_digit_error, DIGIT_ERRORS, MOST_PART
 
    !> G by the entries of its rows, and h.
    type, extends(sparse_rows_t) :: motion_rows_t
@@ -82,9 +82,9 @@ contains
       integer(ip) :: i, b
 
       motions%doubt = spread(0.0_wp, 1, motions%n)
-      digit_error(0) = digits_of(fem%mesh%x, rows)
+      digit_error(0) = contact_digit_error(fem%mesh%x, rows)
       do b = 1, fem%bodies%n
-         digit_error(b) = max(digit_error(0), digits_of(fem%mesh%x(:, fem%bodies%list(b)%nodes), rows))
+         digit_error(b) = max(digit_error(0), contact_digit_error(fem%mesh%x(:, fem%bodies%list(b)%nodes), rows))
       end do
       if (.not. any(digit_error > 0.0_wp)) return
       do i = 1, motions%n
@@ -97,18 +97,10 @@ contains
       end do
    end subroutine note_digits
 
-   !> Half a unit of the last digit of the coordinates [L]; 0: they are not rounded.
-   pure real(wp) function digits_of_deck(fem, rows) result(digit_error)
-      type(fem_t), intent(in) :: fem                !< places of the nodes
+   !> Half a unit of the last digit of coordinates [L]; 0: they are not rounded, or there is no contact.
+   pure real(wp) function contact_digit_error(x, rows) result(digit_error)
+      real(wp), intent(in) :: x(:, :)               !< (2, nodes) all of the mesh or those of a body [L]
       type(contact_rows_t), intent(in) :: rows      !< lengths of the points
-
-      digit_error = digits_of(fem%mesh%x, rows)
-   end function digits_of_deck
-
-   !> The same of some nodes.
-   pure real(wp) function digits_of(x, rows) result(digit_error)
-      real(wp), intent(in) :: x(:, :)               !< (2, nodes) [L]
-      type(contact_rows_t), intent(in) :: rows
 
       digit_error = 0.0_wp
       associate (n => rows%n - rows%n_bilateral)
@@ -117,7 +109,7 @@ contains
          if (digit_error <= EXACT*maxval(abs(x))) digit_error = 0.0_wp
          if (any(rows%reach(:n) < LATTICE*digit_error)) digit_error = 0.0_wp
       end associate
-   end function digits_of
+   end function contact_digit_error
 
    !> Groups of motions that rows join: the number of each, that of its first motion.
    pure subroutine join_motions(rows, holds, group)

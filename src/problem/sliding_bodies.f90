@@ -13,6 +13,7 @@ module atrito_sliding_bodies
    use atrito_bodies, only: body_t, mode_at
    use atrito_dense, only: eigen_symmetric
    use atrito_kinds, only: ip, wp
+   use atrito_motion_rows, only: DIGIT_ERRORS
    use atrito_points, only: contact_points_t, sliding_t
    use atrito_sliding_motions, only: printed_digit_error
    use atrito_turned_points, only: is_along, turn_points
@@ -20,7 +21,6 @@ module atrito_sliding_bodies
    private
    public :: let_slide, balance_loads, motions_left, turn_supports
 
-   real(wp), parameter :: DIGIT_ERRORS = 5.0_wp     !< by which the place of a force may be off
    real(wp), parameter :: EXACT = 1.0e-13_wp        !< digit error over extent of a deck that is not rounded to digits
 
    real(wp), parameter :: NONE_HELD = 1.0e-7_wp     !< what a support sees of a motion that it leaves
