@@ -42,7 +42,8 @@ if sees and os.path.exists(path):
 sys.exit({code} if {code} and {quits!r} in ' '.join(sys.argv) else done.returncode)
 '''
 # (seed, number) of scenes whose relations hold; of the last one W-IDLE is told
-SCENES = {'plain': (1, 6), 'history': (1, 52), 'idle': (1, 215), 'digits': (20290223, 24), 'at rest': (20290601, 72)}
+SCENES = {'plain': (1, 6), 'history': (1, 52), 'idle': (1, 215), 'digits': (20290223, 24), 'at rest': (20290601, 72),
+          'small overlap': (20290611, 51)}
 
 
 def program(atrito, name, sees, table='none', column='', change=1e-6, code=0, quits='--threads'):
@@ -65,7 +66,7 @@ def liars_must_be_caught(atrito, generator):
     all_of_them = ','.join(run_relations.RELATIONS)
     for (seed, number), which in ((SCENES['plain'], all_of_them), (SCENES['history'], all_of_them),
                                   (SCENES['idle'], 'quarter turn,mirror,threads,banded,dense form'),
-                                  (SCENES['digits'], 'mirror'), (SCENES['at rest'], 'turn')):
+                                  (SCENES['digits'], 'mirror'), (SCENES['at rest'], 'turn'), (SCENES['small overlap'], 'banded')):
         code, said = relate(atrito, generator, seed, number, which)
         expect(f'scene {number} of seed {seed} holds: {said}', code == 0)
     for what, sees, table, column, which, scene in (
@@ -75,8 +76,9 @@ def liars_must_be_caught(atrito, generator):
             ('a weight', '--contact dense', 'contact', 'weight', 'dense form', 'idle'),
             ('a displacement begun again', '--restart', 'nodes', 'u2', 'restart', 'history'),
             ('a pressure by more than its digits', 'START, 3.385724587', 'contact', 'pressure', 'mirror', 'digits'),
+            ('a pressure by more than its digits, of a solver', '--solver banded', 'contact', 'pressure', 'banded', 'small overlap'),
             ('a displacement of round-off that is none', '*TRANSFORM', 'nodes', 'u1', 'turn', 'at rest')):
-        path = program(atrito, 'liar', sees, table, column, {'digits': 10.0, 'at rest': 1e12}.get(scene, 1e-6))
+        path = program(atrito, 'liar', sees, table, column, {'digits': 10.0, 'at rest': 1e12, 'small overlap': 10.0}.get(scene, 1e-6))
         code, said = relate(path, generator, *SCENES[scene], which)
         expect(f'{what}: {said[:100]}', code == 1)
     path = program(atrito, 'liar', '--threads', 'stress', 's12')
