@@ -17,7 +17,7 @@ module atrito_contact_problem
    use atrito_bound_qp, only: bound_qp_t
    use atrito_condensed_body, only: condensed_body_t, contact_response, add_flexibilities
    use atrito_constraint_rows, only: constraint_rows_t
-   use atrito_contact_line, only: contact_line_t, number_unknowns, rest_of
+   use atrito_contact_line, only: contact_line_t, number_unknowns, rest_noise, rest_of
    use atrito_contact_rows, only: contact_rows_t, row_value, vector_of_entry
    use atrito_contact_scales, only: usual_growth
    use atrito_bilateral_rows, only: bilateral_rows_t
@@ -255,6 +255,9 @@ contains
             problem%g0(i) = problem%g0(i) - rest_of(line, line%point(i))
          end if
       end do
+      if (allocated(problem%slip_noise)) deallocate (problem%slip_noise)
+      if (allocated(line%rest)) problem%slip_noise = [(0.0_wp, i=1, problem%n_normal), &
+                                                      (rest_noise(line, line%point(i)), i=problem%n_normal + 1, problem%m)]
       call add_displacements(fem, condensed, b, problem%g0)
       call loads_on_motions(fem, f, problem%h, problem%h_size)
    end subroutine set_right_hand_sides

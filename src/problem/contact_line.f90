@@ -22,7 +22,7 @@ module atrito_contact_line
    implicit none (type, external)
    private
    public :: contact_line_t, number_unknowns, tangential_of, pairs_of_unknowns, last_contact_pair, last_of_pair, pressure_of, &
-             rest_of, shear_force_of, slip_noise, slip_of_unknown, friction_bound, normal_bounds, set_friction_bounds
+             rest_noise, rest_of, shear_force_of, slip_noise, slip_of_unknown, friction_bound, normal_bounds, set_friction_bounds
 
    !> The n points. A point whose row of the contact matrix is zero (its dofs are prescribed) has no unknown; its normal
    !> displacement less the distance, and its slip, are known numbers. The last n_bilateral are no points of contact but bilateral
@@ -168,6 +168,15 @@ contains
       noise = 0.0_wp
       if (allocated(line%noise)) noise = line%noise(j)
    end function slip_noise
+
+   !> What is none of a slip that counts from a rest slip [L]; without one every slip is one.
+   pure real(wp) function rest_noise(line, j) result(noise)
+      type(contact_line_t), intent(in) :: line
+      integer(ip), intent(in) :: j                  !< point
+
+      noise = 0.0_wp
+      if (abs(line%rest(j)) > 0.0_wp .or. abs(line%shear_before(j)) > 0.0_wp) noise = slip_noise(line, j)
+   end function rest_noise
 
    !> The friction stress of a point whose slip is prescribed. Where nothing moves, exact stick, and a spring that round-off would
    !> strain, leave it open within its bound: it keeps what it had.
