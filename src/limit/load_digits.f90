@@ -127,6 +127,7 @@ contains
       real(wp), allocatable :: small(:, :), own(:)  ! of as many motions as the body has
       integer(ip) :: first(data%fem%bodies%n + 1), b, i, n, info
 
+      if (.not. allocated(data%given)) data%given = data%f
       first = first_motions(data%fem%bodies)
       do b = 1, data%fem%bodies%n
          n = first(b + 1) - first(b)
