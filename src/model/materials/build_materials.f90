@@ -29,6 +29,7 @@ contains
       type(build_context_t), intent(inout) :: context  !< its model gets materials, sections, section_of
       character(len=:), allocatable :: name
       integer(ip) :: i, current, place, n_sections
+      integer(ip) :: dense                             ! the last material with *DENSITY
       logical :: is_open                               ! nothing but what belongs to it since the last *MATERIAL
 
       i = count_cards(context%deck, 'MATERIAL')
@@ -36,6 +37,7 @@ contains
       allocate (context%elastic_given(i), context%elastic_invalid(i), source=.false.)
       allocate (context%model%section_of(context%model%mesh%n_elements), source=0_ip)
       current = 0
+      dense = 0
       is_open = .false.
       do i = 1, context%deck%n_cards
          select case (keyword_name(context%deck%cards(i)))
@@ -50,7 +52,13 @@ contains
          case ('ELASTIC')
             if (current > 0) call read_elastic_card(context%deck%cards(i), context%model%materials(current), context, current)
          case ('DENSITY')
-            if (current > 0) call read_density_card(context%deck, context%deck%cards(i), context%model%materials(current))
+            if (current == 0) cycle
+            associate (deck => context%deck, material => context%model%materials(current))
+               if (current == dense .and. deck%cards(i)%ok) call report_error(deck, deck%cards(i)%place, 'E-TWICE', 'material '// &
+                                       material%name//' has two *DENSITY', expected='one *DENSITY a material', keyword='DENSITY')
+               dense = current
+               call read_density_card(deck, deck%cards(i), material)
+            end associate
          case ('EXPANSION')
             if (current > 0) call read_expansion_card(context%deck, context%deck%cards(i), context%model%materials(current))
          case ('')
