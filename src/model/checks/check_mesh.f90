@@ -206,9 +206,10 @@ contains
          associate (around => context%around%list(context%around%first(node):context%around%first(node + 1) - 1))
             do k = 1, size(around, kind=ip)
                to(k) = 0
-               side = findloc(mesh%nodes(:side_count(mesh, around(k)), around(k)), node, dim=1, kind=ip)
-               if (side == 0) cycle                    ! in the middle of a side
-               to(k) = mesh%nodes(face_end(mesh, around(k), side), around(k))
+               do side = 1, side_count(mesh, around(k))
+                  if (mesh%nodes(side, around(k)) == node) to(k) = mesh%nodes(face_end(mesh, around(k), side), around(k))
+               end do
+               if (to(k) == 0) cycle                   ! in the middle of a side
                if (any(to(:k - 1) == to(k))) lies_over(around(k)) = .true.
             end do
          end associate
