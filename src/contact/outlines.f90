@@ -7,8 +7,8 @@
 !>     front = min s > 0,     back = max s < 0     over the faces of the same body,
 !>
 !> only back < s < front can be seen, so thin plates are not looked through. Of those the nearest is taken, no farther
-!> off than `distance` or half of the longer one of the two faces; a rigid surface has to be nearer than that, and
-!> within half of the face. All faces stand in one tree (atrito_piece_tree), so a search takes some log n steps, all of
+!> off than `distance` or half of the longer one of the two faces, as they are in the deck; a rigid surface has to be nearer
+!> than that, and within half of the face. All faces stand in one tree (atrito_piece_tree), so a search takes some log n steps, all of
 !> them n log n.
 module atrito_outlines
    use atrito_element_table, only: MOST_SIDES
@@ -31,6 +31,7 @@ module atrito_outlines
       type(face_list_t) :: faces                     !< in the order of their elements
       integer(ip), allocatable :: body(:)            !< (faces)
       real(wp), allocatable :: length(:)             !< (faces) [L]
+      real(wp), allocatable :: reach(:)              !< (faces) half of the length of the deck's face that it is a part of [L]
       integer(ip), allocatable :: next(:)            !< (faces) the one that goes on where it ends; 0: there is a corner
       integer(ip), allocatable :: place(:, :)        !< (4, elements) where a face stands in this list; 0: inside a body
    end type outlines_t
@@ -68,12 +69,13 @@ contains
       if (present(cut)) call leave_out(cut, outlines%faces)
       associate (faces => outlines%faces)
          outlines%body = body_of_element(faces%element(:faces%n))
-         allocate (outlines%length(faces%n), outlines%next(faces%n))
+         allocate (outlines%length(faces%n), outlines%reach(faces%n), outlines%next(faces%n))
          allocate (outlines%place(MOST_SIDES, mesh%n_elements), source=0_ip)
          do i = 1, faces%n
             outlines%place(faces%face(i), faces%element(i)) = i
             outlines%length(i) = face_arc_length(mesh%x(:, face_nodes(mesh, faces%element(i), faces%face(i))), 1.0_wp)
          end do
+         outlines%reach = 0.5_wp*outlines%length
       end associate
       call join_faces(mesh, outlines)
    end subroutine list_outlines
@@ -134,25 +136,25 @@ contains
       type(mesh_t), intent(in) :: mesh !< elements and nodes
       type(outlines_t), intent(in) :: outlines      !< of all bodies
       type(master_t), intent(in) :: rigid(:)        !< all rigid surfaces that may be seen
-      real(wp), intent(in) :: distance               !< [L]; 0: half of the longer one of the two faces, of the face for a rigid one
+      real(wp), intent(in) :: distance               !< [L]; 0: the longer reach of the two faces, of the face for a rigid one
       type(sighting_t), allocatable, intent(out) :: seen(:)   !< (faces)
       type(master_t) :: all
       type(line_t) :: line
       integer(ip), allocatable :: piece(:)
       real(wp), allocatable :: away(:)
-      real(wp) :: half_of_longest
+      real(wp) :: longest
       integer(ip) :: i
 
       allocate (seen(outlines%faces%n))
       if (outlines%faces%n == 0) return
-      half_of_longest = 0.5_wp*maxval(outlines%length)
+      longest = maxval(outlines%reach)
       call master_of_faces(mesh, outlines%faces, all)
       do i = 1, outlines%faces%n
          call aim(mesh, outlines, i, line)
          line%limit = distance
-         if (.not. distance > 0.0_wp) line%limit = half_of_longest
+         if (.not. distance > 0.0_wp) line%limit = longest
          call look_at_bodies(outlines, i, line, all, distance > 0.0_wp, piece, away, seen(i))
-         if (.not. distance > 0.0_wp) line%limit = 0.5_wp*outlines%length(i)
+         if (.not. distance > 0.0_wp) line%limit = outlines%reach(i)
          call look_at_rigid(line, rigid, piece, away, seen(i))
       end do
    end subroutine look_around
@@ -198,7 +200,7 @@ contains
       do k = 1, n
          if (outlines%body(piece(k)) == outlines%body(i) .or. away(k) >= front .or. away(k) <= back) cycle
          limit = line%limit
-         if (.not. is_given) limit = 0.5_wp*max(outlines%length(i), outlines%length(piece(k)))
+         if (.not. is_given) limit = max(outlines%reach(i), outlines%reach(piece(k)))
          if (abs(away(k)) > limit) cycle
          if (seen%face > 0) then
             if (abs(away(k)) > abs(seen%distance)) cycle

@@ -3,7 +3,7 @@ module atrito_items
    use atrito_keyword_table, only: find_choice
    use atrito_kinds, only: ip, wp
    use atrito_deck, only: deck_t, card_t, option_t, token_t, token_text, part_of, is_empty_token, written_length, keyword_name, &
-                          reading_order
+                          reading_order, data_line_t, line_item
    use atrito_diagnostics, only: report_error
    use atrito_deck_expressions, only: evaluate_at, has_own_degree, report_later, index_of_parameter
    use atrito_expression_names, only: is_name, is_reserved_name
@@ -12,7 +12,7 @@ module atrito_items
    implicit none (type, external)
    private
    public :: get_real, get_integer, get_name, find_option, has_option, option_text, option_word, option_real, option_integer, &
-             refuse_option
+             refuse_option, check_comma
    public :: LONGEST_NAME
 
    integer, parameter :: LONGEST_NAME = 80
@@ -321,5 +321,27 @@ contains
       call report_error(deck, option%value, 'E-VALUE', name//' = '//token_text(deck, option%value)//' is out of range', &
                         expected=what, keyword=keyword_name(card))
    end subroutine refuse_option
+
+   !> Of a line of n values: `2,5` and `1,2e-5` are decimal commas, `7850, 20` and `7.85e-9,20` have a further item. False: the first,
+   !> reported.
+   logical function check_comma(deck, line, n, expected, keyword) result(ok)
+      type(deck_t), intent(in) :: deck                 !< as read; messages name its lines
+      type(data_line_t), intent(in) :: line            !< data line
+      integer(ip), intent(in) :: n                     !< values of a line
+      character(len=*), intent(in) :: expected, keyword !< for the message: items, and help of the card
+      character(len=*), parameter :: DIGITS = '0123456789'
+      character(len=:), allocatable :: behind
+      type(token_t) :: value, next
+
+      ok = .true.
+      if (line%n_tokens <= n) return
+      value = line_item(deck, line, n)
+      next = line_item(deck, line, n + 1)
+      if (is_empty_token(next) .or. next%first /= value%last + 2) return
+      behind = token_text(deck, next)
+      ok = verify(token_text(deck, value)//behind(:1), DIGITS) > 0 .or. scan(behind, '.') > 0
+      if (.not. ok) call report_error(deck, next, 'E-ITEMS', to_text(n + 1)//' items, where '//to_text(n)//' belong'// &
+                                      trim(merge('s', ' ', n == 1)), expected=expected, keyword=keyword)
+   end function check_comma
 
 end module atrito_items

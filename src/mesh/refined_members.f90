@@ -1,12 +1,13 @@
 !> What of a refined mesh belongs to nodes, elements and faces of the coarse one: sets and surfaces follow by these rules.
 module atrito_refined_members
+   use atrito_faces, only: face_list_t
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: mesh_t
+   use atrito_mesh, only: mesh_t, face_nodes
    use atrito_refinement, only: refinement_t, drops_centre, is_refined
    use atrito_triangle_pieces, only: is_piece_on_side
    implicit none (type, external)
    private
-   public :: fine_nodes, add_nodes_between, fine_elements, face_on_side, edge_value
+   public :: fine_nodes, add_nodes_between, fine_elements, face_on_side, edge_value, faces_of_deck
 
 contains
 
@@ -133,6 +134,44 @@ contains
       chosen(nodes) = .false.
       nodes = [nodes, pack([(i, i=1, fine%n_nodes)], chosen)]
    end subroutine add_nodes_between
+
+   !> The faces of the coarse mesh that faces on the outline of the fine one are parts of, each once. Distances that a deck measures
+   !> by faces are those of its own.
+   pure subroutine faces_of_deck(fine, refinement, faces, own, nodes)
+      type(mesh_t), intent(in) :: fine                    !< nodes of the coarse mesh keep their places there
+      type(refinement_t), intent(in) :: refinement        !< made for this fine mesh, or not made
+      type(face_list_t), intent(in) :: faces              !< of the fine mesh
+      integer(ip), intent(out) :: own(faces%n)            !< place in nodes
+      integer(ip), allocatable, intent(out) :: nodes(:, :) !< (3, ): first, last, middle (0: none); places in the mesh
+      integer(ip), allocatable :: edge_at(:), known(:)
+      integer(ip) :: edge, i, n
+
+      allocate (edge_at(fine%n_nodes), known(refinement%n_edges), source=0_ip)
+      do i = 1, refinement%n_edges
+         if (refinement%edge_node(3, i) > 0) edge_at(refinement%edge_node(3, i)) = i
+         edge_at(refinement%edge_first(i):refinement%edge_first(i + 1) - 1) = i
+      end do
+      allocate (nodes(3, faces%n), source=0_ip)
+      n = 0
+      do i = 1, faces%n
+         associate (ends => face_nodes(fine, faces%element(i), faces%face(i)))
+            edge = maxval(edge_at(ends))
+            if (edge > 0) then
+               if (known(edge) == 0) then
+                  n = n + 1
+                  known(edge) = n
+                  nodes(:, n) = refinement%edge_node(:, edge)
+               end if
+               own(i) = known(edge)
+            else                                          ! a whole face
+               n = n + 1
+               nodes(:size(ends), n) = ends
+               own(i) = n
+            end if
+         end associate
+      end do
+      nodes = nodes(:, :n)
+   end subroutine faces_of_deck
 
    !> Value between the nodes of an edge: first, last[, middle].
    pure real(wp) function edge_value(values, t) result(value)

@@ -2,10 +2,10 @@
 module atrito_load_resultants
    use atrito_amplitudes, only: factor_at, time_before
    use atrito_element, only: body_load, pressure_load
-   use atrito_element_table, only: MOST_CORNERS, MOST_NODES
+   use atrito_element_table, only: MOST_NODES
    use atrito_face_loads, only: traction_load, hydrostatic_load
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: face_end, face_nodes, side_count, depth_places
+   use atrito_mesh, only: face_end, face_nodes, depth_places
    use atrito_model, only: model_t, element_load_t, nodal_values_t, is_on_volume, LOAD_PRESSURE, LOAD_BODY, LOAD_TRACTION, &
                            LOAD_HYDROSTATIC, LOAD_LINEAR
    use atrito_plane_state, only: depth_at, IS_TAPERED
@@ -27,7 +27,7 @@ contains
       type(model_t), intent(in) :: model            !< loads, amplitudes and mesh are read
       type(force_t), intent(out) :: concentrated    !< on nodes
       type(force_t), intent(out) :: pressure        !< on element faces
-      type(force_t), intent(out) :: body            !< in elements, on the polygon of the corners
+      type(force_t), intent(out) :: body            !< in elements
       integer(ip), intent(in), optional :: step     !< default 1
       type(element_load_t) :: last
       integer(ip) :: i, k
@@ -96,22 +96,17 @@ contains
       type(element_load_t), intent(in) :: loads     !< on faces or in elements, with their full values
       integer(ip), intent(in) :: i                  !< place in loads
       type(force_t), intent(inout) :: force         !< is added to
-      logical :: tapers                             ! no simple formula knows where the resultant goes through
 
-      tapers = IS_TAPERED(model%mesh%state(loads%element(i)))
       select case (loads%kind(i))
       case (LOAD_PRESSURE)
-         if (tapers .or. any(abs(loads%value(2:, i)) > 0.0_wp)) then
+         ! where the thickness varies no simple formula knows where the resultant goes through
+         if (IS_TAPERED(model%mesh%state(loads%element(i))) .or. any(abs(loads%value(2:, i)) > 0.0_wp)) then
             call add_face_load(model, loads, i, force)
          else
             call add_pressure(model, loads, i, force)
          end if
       case (LOAD_BODY)
-         if (tapers) then
-            call add_nodal_forces(model, loads%element(i), loads%value(:2, i), [0.0_wp, 0.0_wp, 0.0_wp], force)
-         else
-            call add_body_force(model, loads, i, force)
-         end if
+         call add_nodal_forces(model, loads%element(i), loads%value(:2, i), [0.0_wp, 0.0_wp, 0.0_wp], force)
       case (LOAD_LINEAR)
          call add_nodal_forces(model, loads%element(i), [0.0_wp, 0.0_wp], loads%value(:, i), force)
       case default
@@ -190,26 +185,6 @@ contains
          end do
       end associate
    end subroutine add_face_load
-
-   pure subroutine add_body_force(model, loads, i, force)
-      type(model_t), intent(in) :: model
-      type(element_load_t), intent(in) :: loads
-      integer(ip), intent(in) :: i                  !< place in the element_loads
-      type(force_t), intent(inout) :: force
-      real(wp) :: x(2, MOST_CORNERS), middle(2), area
-      integer(ip) :: e, k, n
-
-      e = loads%element(i)
-      n = side_count(model%mesh, e)
-      x(:, :n) = model%mesh%x(:, model%mesh%nodes(:n, e))
-      do k = 3, n
-         associate (d => x(:, k - 1) - x(:, 1), g => x(:, k) - x(:, 1))
-            area = 0.5_wp*(d(1)*g(2) - d(2)*g(1))
-         end associate
-         middle = (x(:, 1) + x(:, k - 1) + x(:, k))/3.0_wp
-         call add_to(force, area*depth_of(model, e, middle(1))*loads%value(:2, i), middle)
-      end do
-   end subroutine add_body_force
 
    !> A force per volume, which may be linear in the place, by its nodal forces.
    pure subroutine add_nodal_forces(model, e, density, slope, force)

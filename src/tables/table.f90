@@ -215,12 +215,12 @@ contains
       if (.not. is_nan(x)) abs_is_below = abs(x) < limit
    end function abs_is_below
 
-   !> Underscores for blanks, and for #, which numpy takes for the beginning of a comment.
+   !> Underscores for blanks and tabs, and for #, which numpy takes for the beginning of a comment.
    pure function one_word(text) result(word)
       character(len=*), intent(in) :: text !< any text
       character(len=len(text)) :: word
 
-      word = replaced(text, ' #', '_')
+      word = replaced(text, ' #'//achar(9), '_')
    end function one_word
 
 end module atrito_table

@@ -47,6 +47,7 @@ contains
          end if
          call check_materials(model, context)
          if (has_errors()) return
+         call warn_of_layers(mesh, context)
          call note_formulations(model, context)
          found = pack([(i, i=1, mesh%n_nodes)], around(2:mesh%n_nodes + 1) == around(:mesh%n_nodes))
          found = pack(found, [(find_id(context%rigid_bodies, found(i)) == 0, i=1, size(found, kind=ip))])
@@ -169,6 +170,7 @@ contains
                do k = first(middle), first(middle + 1) - 1
                   other = context%around%list(k)
                   if (other == e .or. side_between(mesh, other, b, a, middle) > 0) cycle
+                  if (side_between(mesh, other, a, b, middle) > 0) cycle ! it lies over this one
                   misfit(max(e, other)) = .true.
                end do
                do k = first(a), first(a + 1) - 1
@@ -186,5 +188,38 @@ contains
                         expected='elements of one order and size on both sides of an edge (CPE3 and CPE4, or CPE6, CPE8 and '// &
                         'CPE9; so CPS), or no common nodes and a *CONTACT PAIR', keyword='ELEMENT')
    end subroutine check_edges
+
+   !> Reports elements that lie over others: both go along a common edge from the same corner to the same.
+   subroutine warn_of_layers(mesh, context)
+      type(mesh_t), intent(in) :: mesh
+      type(build_context_t), intent(in) :: context
+      logical, allocatable :: lies_over(:)
+      integer(ip), allocatable :: found(:)
+      integer(ip), allocatable :: to(:)                ! the corner to which each element round a node goes on; 0: none
+      integer(ip) :: e, k, node, side
+
+      allocate (lies_over(mesh%n_elements), source=.false.)
+      associate (first => context%around%first)
+         allocate (to(maxval(first(2:mesh%n_nodes + 1) - first(:mesh%n_nodes))), source=0_ip)
+      end associate
+      do node = 1, mesh%n_nodes
+         associate (around => context%around%list(context%around%first(node):context%around%first(node + 1) - 1))
+            do k = 1, size(around, kind=ip)
+               to(k) = 0
+               do side = 1, side_count(mesh, around(k))
+                  if (mesh%nodes(side, around(k)) == node) to(k) = mesh%nodes(face_end(mesh, around(k), side), around(k))
+               end do
+               if (to(k) == 0) cycle                   ! in the middle of a side
+               if (any(to(:k - 1) == to(k))) lies_over(around(k)) = .true.
+            end do
+         end associate
+      end do
+      found = pack([(e, e=1, mesh%n_elements)], lies_over)
+      if (size(found) == 0) return
+      call report_warning(context%deck, place_token(context%deck, context%elements%place(found(1))), 'W-LAYERS', 'element '// &
+                          ids_text(mesh%element_id(found))//' lies over another one, which goes along the same edge in the '// &
+                          'same direction: their stiffnesses, weights and loads add up', &
+                          expected='elements beside each other', keyword='ELEMENT')
+   end subroutine warn_of_layers
 
 end module atrito_check_mesh

@@ -59,7 +59,7 @@ contains
    subroutine build_supports(context)
       type(build_context_t), intent(inout) :: context  !< open%supports, dof_entry and loose_held change
       type(by_number_t) :: numbered
-      type(condition_list_t) :: before
+      type(condition_list_t) :: before, inherited
       integer(ip) :: i, entry
 
       if (context%open%number == 1) then
@@ -76,7 +76,9 @@ contains
          context%dof_entry = 0
          where (context%loose_held == LOOSE_HELD) context%loose_held = LOOSE_RELEASED
       end if
+      if (is_refined(context%refinement)) inherited = context%open%supports
       call read_cards(context, context%open%number, numbered)
+      call follow_ends(inherited, context)
       do i = 1, before%n
          associate (old => before%list(i))
             ! a displacement that is given anew by OP=NEW begins with what it has come to
@@ -265,6 +267,44 @@ contains
          end do
       end associate
    end subroutine prescribe_edges
+
+   !> Where a line of the step moves a node of a set that an earlier step holds, the new nodes of the edges beside it go along:
+   !> they stay between the nodes of the deck. Values that have curves of their own do not add up to one, which is told.
+   subroutine follow_ends(inherited, context)
+      type(condition_list_t), intent(in) :: inherited  !< supports before the lines of the step; empty where nothing is
+      type(build_context_t), intent(inout) :: context  !< values of new nodes change
+      integer(ip) :: edge, dof, entry(3), i, k, n
+      logical :: is_told
+
+      is_told = .false.
+      if (inherited%n == 0) return
+      associate (fine => context%refinement, now => context%open%supports%list, ids => context%model%mesh%node_id)
+         do edge = 1, fine%n_edges
+            n = merge(3_ip, 2_ip, fine%edge_node(3, edge) > 0)
+            do dof = 1, PLANE_DOFS
+               entry(:n) = context%dof_entry(dof, fine%edge_node(:n, edge))
+               if (any(entry(:n) == 0 .or. entry(:n) > inherited%n)) cycle
+               if (all([(is_inherited(context, now(entry(i))), i=1, n)])) cycle
+               do k = fine%edge_first(edge), fine%edge_first(edge + 1) - 1
+                  associate (new => context%dof_entry(dof, k))
+                     if (new == 0) cycle
+                     if (.not. is_inherited(context, now(new))) cycle
+                     if (all(now(entry(:n))%amplitude == now(entry(1))%amplitude)) then
+                        now(new)%value(1) = edge_value(now(entry(:n))%value(1), edge_place(fine, edge, k))
+                        now(new)%amplitude = now(entry(1))%amplitude
+                     else if (.not. is_told) then
+                        is_told = .true.
+                        call report_note(context%deck, line_token(context, 1_ip), 'N-REFINE', 'nodes '// &
+                                         to_text(ids(fine%edge_node(1, edge)))//' and '//to_text(ids(fine%edge_node(2, edge)))// &
+                                         ' have other amplitudes; nodes of the finer mesh between them keep what they had', &
+                                         keyword='BOUNDARY')
+                     end if
+                  end associate
+               end do
+            end do
+         end do
+      end associate
+   end subroutine follow_ends
 
    !> The dofs of a line exist, or are those of three dimensions and harmless.
    logical function are_dofs(context, first, last, value, turns)

@@ -14,6 +14,7 @@ module atrito_build_ties
    use atrito_growth, only: number_list_t, add_number, numbers_of
    use atrito_pairing, only: pair_surfaces
    use atrito_points, only: contact_points_t
+   use atrito_refined_members, only: faces_of_deck
    use atrito_references, only: find_surface
    use atrito_strings, only: to_text
    implicit none (type, external)
@@ -153,29 +154,34 @@ contains
                                     'surfaces that have their own nodes')
    end subroutine check_shared_nodes
 
+   !> Those that are left out: a part of the mean length of the master's faces, as they are in the deck.
+   subroutine set_tolerances(context)
+      type(build_context_t), intent(inout) :: context
+      integer(ip), allocatable :: own(:), nodes(:, :)
+      integer(ip) :: j
+
+      do j = 1, size(context%model%ties, kind=ip)
+         if (context%model%ties(j)%tolerance >= 0.0_wp) cycle
+         associate (faces => context%model%surfaces(context%model%ties(j)%master)%faces, mesh => context%model%mesh)
+            if (allocated(own)) deallocate (own)
+            allocate (own(faces%n))
+            call faces_of_deck(mesh, context%refinement, faces, own, nodes)
+            context%model%ties(j)%tolerance = USUAL_TOLERANCE*sum(norm2(mesh%x(:, nodes(2, :)) - mesh%x(:, nodes(1, :)), dim=1))/ &
+                                              size(nodes, 2)
+         end associate
+      end do
+   end subroutine set_tolerances
+
    !> The rows of all ties; for models without any error. Nodes of the slaves may move.
    subroutine build_ties(context)
       type(build_context_t), intent(inout) :: context  !< its model gets bilateral rows; tolerances are set
       type(contact_points_t), allocatable :: points(:)
       logical, allocatable :: from_behind(:)
-      integer(ip) :: i, tied_by(context%model%mesh%n_nodes), j, k
+      integer(ip) :: i, tied_by(context%model%mesh%n_nodes)
       logical :: moved
-      real(wp) :: length
 
       if (size(context%model%ties) == 0) return
-      ! Those that are left out: a part of the mean length of the master's faces.
-      do j = 1, size(context%model%ties, kind=ip)
-         if (context%model%ties(j)%tolerance >= 0.0_wp) cycle
-         length = 0.0_wp
-         associate (faces => context%model%surfaces(context%model%ties(j)%master)%faces)
-            do k = 1, faces%n
-               associate (nodes => face_nodes(context%model%mesh, faces%element(k), faces%face(k)))
-                  length = length + norm2(context%model%mesh%x(:, nodes(2)) - context%model%mesh%x(:, nodes(1)))
-               end associate
-            end do
-            context%model%ties(j)%tolerance = USUAL_TOLERANCE*length/faces%n
-         end associate
-      end do
+      call set_tolerances(context)
       call pair_ties(context%model, points)
       from_behind = points%n == 0
       if (any(from_behind)) then

@@ -20,9 +20,9 @@ contains
 
    !> Prescribed displacements of a step along local axes e1 and e2 of a node.
    !>
-   !> Where both are prescribed the displacement is u = u1 e1 + u2 e2, whose components along x and y are prescribed. A single one
-   !> asks for e . u = value: where e is an axis of the scene a component is prescribed, else it is a bilateral row, which holds in
-   !> all steps.
+   !> Where an axis is one of the scene a component is prescribed. Else, where both are prescribed, the displacement is
+   !> u = u1 e1 + u2 e2, whose components along x and y are prescribed; a single one, e . u = value, is a bilateral row, which holds
+   !> in all steps.
    subroutine turn_supports(context)
       type(build_context_t), intent(inout) :: context  !< its open step gets prescribed; rows, where inclined
       type(condition_list_t) :: inclined
@@ -52,12 +52,12 @@ contains
             end if
             direction = dof_direction(context, support%place, support%dof)
             other = context%dof_entry(3 - support%dof, support%place)
-            if (other > 0) then
-               ! once, by the first of the two
-               if (i < other) call add_both(context, support, context%open%supports%list(other), along_axes)
-            else if (any(direction == 0.0_wp)) then
+            if (any(direction == 0.0_wp)) then
                axis = merge(2_ip, 1_ip, direction(1) == 0.0_wp)
                call add_part(along_axes, support, axis, direction(axis))
+            else if (other > 0) then
+               ! once, by the first of the two
+               if (i < other) call add_both(context, support, context%open%supports%list(other), along_axes)
             else
                call add_condition(inclined, support)
             end if

@@ -5,7 +5,7 @@ module atrito_build_contact
    use atrito_contact_rules, only: quadrature_of
    use atrito_diagnostics, only: report_error, report_note
    use atrito_build_context, only: build_context_t, keep_token, define_name, count_cards
-   use atrito_items, only: get_real, has_option, option_text, option_word
+   use atrito_items, only: check_comma, get_real, has_option, option_text, option_word
    use atrito_kinds, only: ip, wp
    use atrito_model, only: interaction_t, pair_t, QUADRATURE_AUTO, QUADRATURE_NODAL, &
                            FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_LINE
@@ -130,8 +130,10 @@ contains
       else
          interaction%friction = FRICTION_LOCAL
          interaction%is_incremental = option_word(deck, card, 'SLIP') /= 'TOTAL'
-         if (.not. is_empty_token(items(2))) call get_value(deck, card, items(2), 'stick slope, a real > 0 [F/L^3]', .true., &
-                                                            interaction%stick_slope, ok)
+         if (ok) ok = check_comma(deck, deck%lines(card%first_line), 1_ip, 'nu [-]; a stick slope behind it as 1000.', 'FRICTION')
+         if (ok .and. .not. is_empty_token(items(2))) then
+            call get_value(deck, card, items(2), 'stick slope, a real > 0 [F/L^3]', .true., interaction%stick_slope, ok)
+         end if
       end if
       ! without a coefficient there are no tangential unknowns at all
       if (.not. interaction%nu > 0.0_wp) interaction%friction = FRICTION_NONE

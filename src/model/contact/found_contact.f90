@@ -14,6 +14,7 @@ module atrito_found_contact
    use atrito_contact_rules, only: contact_rules_t, add_rule, last_rule, sort_rules, ANY_BODY
    use atrito_diagnostics, only: report_note, report_warning
    use atrito_build_context, only: build_context_t, keep_token
+   use atrito_face_geometry, only: face_arc_length
    use atrito_faces, only: face_list_t
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, lp, wp
@@ -22,6 +23,7 @@ module atrito_found_contact
    use atrito_growth, only: numbers_of
    use atrito_outlines, only: outlines_t, sighting_t, list_outlines, look_around
    use atrito_nodal_points, only: finds_master
+   use atrito_refined_members, only: faces_of_deck
    use atrito_sorting, only: sorted_places
    use atrito_strings, only: to_text
    implicit none (type, external)
@@ -81,7 +83,7 @@ contains
       type(contact_rules_t), intent(inout) :: rules
       type(search_t), intent(out) :: search
       logical :: is_named(0:size(context%model%surfaces) + size(rules%groups))
-      integer(ip), allocatable :: place(:, :), surface(:), holder(:), members(:)
+      integer(ip), allocatable :: place(:, :), surface(:), holder(:), members(:), own(:), nodes(:, :)
       integer(ip) :: i, j, k, n
 
       associate (model => context%model)
@@ -89,6 +91,13 @@ contains
          call name_bodies(model, search%bodies)
          call list_outlines(model%mesh, context%around, search%bodies%of_element, search%outlines, context%cut_faces)
          n = search%outlines%faces%n
+         allocate (own(n))
+         call faces_of_deck(model%mesh, context%refinement, search%outlines%faces, own, nodes)
+         do i = 1, n
+            associate (ends => pack(nodes(:, own(i)), nodes(:, own(i)) > 0))
+               search%outlines%reach(i) = 0.5_wp*face_arc_length(model%mesh%x(:, ends), 1.0_wp)
+            end associate
+         end do
          call list_holders(search%bodies%n, reshape(search%outlines%body, [1_ip, n]), search%first, search%of_body)
          allocate (search%other(n), search%law(n), source=0_ip)
          allocate (search%is_slave(n), source=.false.)

@@ -3,13 +3,13 @@ module atrito_build_materials
    use atrito_build_context, only: build_context_t, place_text, keep_token, define_name, count_cards, ids_text, has_errors
    use atrito_deck, only: deck_t, card_t, token_t, line_item, keyword_name, is_empty_token, data_line_t
    use atrito_diagnostics, only: report_error, report_note
-   use atrito_items, only: get_real, has_option, option_text, option_word, get_integer
+   use atrito_items, only: check_comma, get_real, has_option, option_text, option_word, get_integer
    use atrito_kinds, only: ip, wp, PI
    use atrito_model, only: material_t, section_t, FORMULATION_BBAR
    use atrito_motion, only: turned
    use atrito_node_fields, only: taper_elements
    use atrito_name_list, only: find_name
-   use atrito_read_elastic, only: read_elastic_card, get_positive, check_comma, check_constant
+   use atrito_read_elastic, only: read_elastic_card, get_positive, check_constant
    use atrito_references, only: report_unknown
    use atrito_sets, only: find_set, members_of
    use atrito_strings, only: to_text
@@ -29,6 +29,7 @@ contains
       type(build_context_t), intent(inout) :: context  !< its model gets materials, sections, section_of
       character(len=:), allocatable :: name
       integer(ip) :: i, current, place, n_sections
+      integer(ip) :: dense                             ! the last material with *DENSITY
       logical :: is_open                               ! nothing but what belongs to it since the last *MATERIAL
 
       i = count_cards(context%deck, 'MATERIAL')
@@ -36,6 +37,7 @@ contains
       allocate (context%elastic_given(i), context%elastic_invalid(i), source=.false.)
       allocate (context%model%section_of(context%model%mesh%n_elements), source=0_ip)
       current = 0
+      dense = 0
       is_open = .false.
       do i = 1, context%deck%n_cards
          select case (keyword_name(context%deck%cards(i)))
@@ -50,7 +52,13 @@ contains
          case ('ELASTIC')
             if (current > 0) call read_elastic_card(context%deck%cards(i), context%model%materials(current), context, current)
          case ('DENSITY')
-            if (current > 0) call read_density_card(context%deck, context%deck%cards(i), context%model%materials(current))
+            if (current == 0) cycle
+            associate (deck => context%deck, material => context%model%materials(current))
+               if (current == dense .and. deck%cards(i)%ok) call report_error(deck, deck%cards(i)%place, 'E-TWICE', 'material '// &
+                                       material%name//' has two *DENSITY', expected='one *DENSITY a material', keyword='DENSITY')
+               dense = current
+               call read_density_card(deck, deck%cards(i), material)
+            end associate
          case ('EXPANSION')
             if (current > 0) call read_expansion_card(context%deck, context%deck%cards(i), context%model%materials(current))
          case ('')
@@ -113,6 +121,8 @@ contains
       if (card%n_lines == 0) return
       if (.not. deck%lines(card%first_line)%ok) return
       call get_real(deck, line_item(deck, deck%lines(card%first_line), 1_ip), WHAT, material%expansion, ok, keyword='EXPANSION')
+      if (ok) ok = check_comma(deck, deck%lines(card%first_line), 1_ip, 'alpha [1/temperature]; a temperature behind it as 20.', &
+                               'EXPANSION')
       if (ok) call check_constant(deck, card, [material%expansion], 'coefficients of expansion', ok)
    end subroutine read_expansion_card
 

@@ -1,16 +1,16 @@
 !> *ELASTIC: E and mu, engineering constants or stiffnesses of an orthotropic material.
 module atrito_read_elastic
    use atrito_build_context, only: build_context_t
-   use atrito_deck, only: card_t, deck_t, data_line_t, token_t, token_text, line_item
+   use atrito_deck, only: card_t, deck_t, token_t, token_text, line_item
    use atrito_diagnostics, only: report_error
-   use atrito_items, only: get_real, option_word
+   use atrito_items, only: check_comma, get_real, option_word
    use atrito_kinds, only: ip, wp
    use atrito_model, only: material_t
    use atrito_orthotropy, only: SPATIAL, compliance_of_constants, inverse_of, is_positive_definite
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: read_elastic_card, get_positive, check_comma, check_constant
+   public :: read_elastic_card, get_positive, check_constant
 
    character(len=*), parameter :: KEYWORD = 'ELASTIC'
    character(len=*), parameter :: WHAT_E = "Young's modulus E, a real > 0 [F/L^2]", &
@@ -52,7 +52,11 @@ contains
                call report_error(deck, ratio, 'E-VALUE', 'mu = '//to_text(material%poisson, 15)//' is out of range', &
                                  expected=WHAT_MU, keyword=KEYWORD)
             end if
-            if (all(ok) .and. token_text(deck, ratio) == '0') then
+            if (all(ok) .and. index(token_text(deck, ratio), '00') == 1) then
+               ok(1) = .false.
+               call report_error(deck, ratio, 'E-NUMBER', token_text(deck, ratio)//' is the rest of a number with a comma in it', &
+                                 expected='E and mu, as 210000., 0.3', keyword=KEYWORD)
+            else if (all(ok) .and. token_text(deck, ratio) == '0') then
                ok(1) = check_comma(deck, line, 2_ip, 'E [F/L^2], mu [-]; a temperature behind mu = 0 as 0., 20.', KEYWORD)
             end if
             if (all(ok)) call check_constant(deck, card, [material%young, material%poisson], 'E and mu', ok(1))
@@ -78,23 +82,6 @@ contains
       ok = .false.
       call report_error(deck, token, 'E-VALUE', name//to_text(value)//' is not positive', expected=what, keyword=keyword)
    end subroutine get_positive
-
-   !> Of a line of n values: `2,5` is a decimal comma, `7850, 20` and `7.85e-9,20` have a temperature. False: the first, reported.
-   logical function check_comma(deck, line, n, expected, keyword) result(ok)
-      type(deck_t), intent(in) :: deck                 !< as read; messages name its lines
-      type(data_line_t), intent(in) :: line            !< data line
-      integer(ip), intent(in) :: n                     !< values of a line
-      character(len=*), intent(in) :: expected, keyword !< for the message: items, and help of the card
-      type(token_t) :: value, next
-
-      ok = .true.
-      if (line%n_tokens <= n) return
-      value = line_item(deck, line, n)
-      next = line_item(deck, line, n + 1)
-      ok = next%first /= value%last + 2 .or. verify(token_text(deck, value)//token_text(deck, next), '0123456789') > 0
-      if (.not. ok) call report_error(deck, next, 'E-ITEMS', to_text(n + 1)//' items, where '//to_text(n)//' belong'// &
-                                      trim(merge('s', ' ', n == 1)), expected=expected, keyword=keyword)
-   end function check_comma
 
    !> Lines for further temperatures say the same.
    subroutine check_constant(deck, card, values, what, ok)

@@ -120,7 +120,7 @@ contains
 
       allocate (results%bodies(2), results%joints(3))
       associate (a => results%bodies(1), b => results%bodies(2))
-         a%name = 'A B#1'
+         a%name = 'A'//achar(9)//'B#1'
          a%size = 2.0_wp
          a%u = [1.0e-3_wp, -2.0e-3_wp]
          a%rotation = 5.0e-4_wp
