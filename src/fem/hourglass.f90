@@ -23,11 +23,11 @@ contains
 
    !> The element (the user's number) of a body of one element, whose supports leave its hourglass free; 0: there is none.
    !>
-   !> The displacements that strain none of the four points are four: two translations, a rotation, and the hourglass; of a ring two:
-   !> the translation along the axis, and the hourglass. Of those n + 1, the ones that leave all held dofs at rest are the null space
-   !> of their rows there, of the dimension n + 1 - rank; of the n rigid motions alone it is n - rank of their rows. Where both ranks
-   !> are the same there is one motion more that no support feels, and it is no rigid one. A second element beside it would share no
-   !> hourglass, so only bodies of one element are asked.
+   !> The displacements that strain none of the four points are four: two translations, a rotation, and the hourglass; of a ring
+   !> two: the translation along the axis, and the hourglass. Of those n + 1, the ones that leave all held dofs at rest are the null
+   !> space of their rows there, of the dimension n + 1 - rank; of the n rigid motions alone it is n - rank of their rows. Where
+   !> both ranks are the same there is one motion more that no support feels, and it is no rigid one. A second element beside it
+   !> would share no hourglass, so only bodies of one element are asked.
    integer(ip) function free_hourglass(fem, body) result(element)
       type(fem_t), intent(in) :: fem   !< the body's elements and equations are read
       type(body_t), intent(in) :: body !< one of fem's
@@ -57,8 +57,8 @@ contains
 
       !> The displacements of an element that strain none of its points, columns of length 1; not found where they are not n + 1.
       !> They are sought in an element that is mapped to about a square, of which no aspect ratio is left: with x = J y strains are
-      !> J' e J, of displacements J' u. In the place of the hoop strain u_1/r stands u_1, which is 0 where that is, far from the axis
-      !> too.
+      !> J' e J, of displacements J' u. In the place of the hoop strain u_1/r stands u_1, which is 0 where that is, far from the
+      !> axis too.
       subroutine find_shapes()
          real(wp) :: j(2, 2), inverse(2, 2), y(2, EIGHT), strain(STRAINS, 2*EIGHT), products(2*EIGHT, 2*EIGHT), values(2*EIGHT), &
                      xi(2)

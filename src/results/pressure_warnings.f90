@@ -33,7 +33,7 @@ module atrito_pressure_warnings
    !> (tests/verify/pressures-told has the errors).
    integer(ip), parameter :: ENOUGH(2) = [4_ip, 6_ip]
    !> Distances of the master's nodes along the zone from which on they let a finer slave have Hertz's pressure to as much: what the
-   !> master cannot follow the slave takes, one straight face across the zone three times the pressure (tests/verify/pressures-told).
+   !> master cannot follow the slave takes, on one straight face three times the pressure (tests/verify/pressures-told).
    real(wp), parameter :: ENOUGH_OPPOSITE = 3.5_wp
    !> What round-off, and the shape of faces, leave of a gap that opens, as a part of the gap that is there under load.
    real(wp), parameter :: OPENS = 0.5_wp

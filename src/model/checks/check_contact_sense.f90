@@ -1,7 +1,7 @@
 !> What a deck may well say and hardly means: bodies that overlap before they are loaded, loads on faces that touch, and pairs that
 !> say the same thing twice: the same faces face each other in both, as slave and master or the other way round. Each pair takes a
-!> part of the pressure then, and a contact that yields (LINEAR) is twice as stiff. Where a tie holds these faces, too, it takes what
-!> it likes: contact may press as hard as the tie pulls.
+!> part of the pressure then, and a contact that yields (LINEAR) is twice as stiff. Where a tie holds these faces, too, contact may
+!> press as hard as the tie pulls.
 module atrito_check_contact_sense
    use atrito_bilateral_rows, only: ROW_TIE
    use atrito_build_context, only: build_context_t, ids_text
