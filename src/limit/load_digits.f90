@@ -42,10 +42,6 @@ contains
          associate (body => data%fem%bodies%list(b))
             turn = abs(dot_product(body%modes(3, :), v(first(b):first(b + 1) - 1)))
             if (.not. turn > 0.0_wp) cycle
-            if (body%is_rigid) then
-               is_within_digits = .false.
-               return
-            end if
             forces = sum(hypot(data%f(1, body%nodes), data%f(2, body%nodes)))
             allowed = allowed + forces*turn/body%size
          end associate

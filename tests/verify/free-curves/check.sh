@@ -72,6 +72,30 @@ pin rough 0 "-v digits=6 -v moment=0.1 -v nu=0.3"
 grep -q W-IDLE rough.err && complain "rough: W-IDLE"
 pin held 0 "-v digits=6 -v moment=0.1 -v hold=1"
 grep -q W-IDLE held.err && complain "held: W-IDLE"
+# The pin is a drawn line that moves with a reference node, or the hole is the end of a drawn slot: round sides as well.
+drawn() { # NAME CODE DIGITS ANGLE MOMENT SLOT OPTION ...
+   name=$1
+   code=$2
+   awk -v digits="$3" -v angle="$4" -v moment="$5" -v slot="$6" -f "$here/drawn.awk" </dev/null >"$name.inp"
+   shift 6
+   run "$code" "$name.inp" "$name" --digits 17 --quiet "$@"
+}
+for slot in 0 1; do
+   drawn drawn-$slot 0 17 0 0 $slot
+   for digits in 5 6 8 10; do
+      for angle in 0 57.3; do
+         for form in dense sparse; do
+            name=drawn-$slot-$digits-$angle-$form
+            drawn "$name" 0 $digits $angle 0 $slot --contact $form
+            grep -q 'W-IDLE.*free to rotate about' "$name.err" || complain "$name: the rotation is not told"
+            near "$name pressure" "$(most "$name")" "$(most drawn-$slot)" "$(value "1e4*10^(1 - $digits)*$(most drawn-$slot)")"
+            near "$name stays" "$(column "$name/nodes.tab" u1 | awk '{ if ($1*$1 > m*m) m = $1 } END { printf "%.17g", m }')" 0 0.01
+         done
+         # in the slot it turns until the straight sides hold it
+         drawn "drawn-moment-$slot-$digits-$angle" $((4 - 4*slot)) $digits $angle 0.01 $slot
+      done
+   done
+done
 # A ring on a pin, with an overlap that friction sticks in, and nothing holds them: both together may turn and move, and do not.
 together() {
    awk '/^# columns:/ { for (i = 3; i <= NF; i++) place[$i] = i - 2; next } /^#/ { next }
