@@ -143,6 +143,19 @@ for digits in 6 7 8 10 13; do
       near "$name: points that carry" "$(column "$name/contact.tab" pressure | awk '$1 > 0 { n++ } END { print n + 0 }')" 2 0
    done
 done
+# The same of two rollers between plates: their forces come through contact alone, and their places are known to the digits as well.
+for digits in 6 8 10 17; do
+   for angle in 0 30 57.3; do
+      for nu in 0 0.3; do
+         name=rollers-$digits-$angle-$nu
+         awk -v digits=$digits -v angle=$angle -v nu=$nu -f "$here/rollers.awk" </dev/null >"$name.inp"
+         run 0 "$name.inp" "$name" --digits 17 --quiet
+         grep -q 'W-IDLE' "$name.err" || complain "$name: the motion is not told"
+         near "$name moves along by" "$(awk -v t=$angle '!/^#/ { p = t*atan2(1, 1)/45; u = $5*cos(p) + $6*sin(p); if (u*u > m*m) m = u }
+            END { printf "%.17g", m }' "$name/nodes.tab")" 0 0.03
+      done
+   done
+done
 # A block in a slot, whose friction holds 2 nu N = 60: a push of 50 it holds, and of one of 70 nothing but rounding, which makes the slot
 # narrower on one side, could hold it.
 for digits in 4 5 6 8 10 17; do
