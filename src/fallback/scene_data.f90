@@ -196,6 +196,7 @@ contains
       type(status_t), intent(out) :: status      !< STATUS_DECK: the averages need more memory than there is
       type(step_t), intent(in), target, optional :: step    !< left out: the first of the model
       type(bilateral_rows_t) :: bilateral                   ! of the model, but for supports that let a body turn
+      integer(ip), allocatable :: holder(:)                 ! of each node: a support along a direction of its own
       logical :: known
 
       data%model => model
@@ -221,8 +222,9 @@ contains
       if (has_moving_surfaces(model)) call set_rigid_motions(model, data%step%rigid_prescribed, data%fem%bodies)
       call turn_supports(data%fem, model%bilateral, bilateral)
       call let_slide(model%interactions(model%pairs%interaction)%nu > 0.0_wp, data%points, data%fem, bilateral)
-      call straighten_held_points(model%bilateral, data%fem, data%points)
+      call straighten_held_points(model%bilateral, data%fem, data%points, holder)
       call build_rows(data%points, data%rows, bilateral)
+      call move_alloc(holder, data%rows%holder)
       call balance_rows(model%interactions(model%pairs%interaction)%nu > 0.0_wp, data%points, data%fem, bilateral, data%rows)
       if (any(model%interactions%rho > 0.0_wp)) then
          call check_average_memory(model%deck_path, data%rows%n, &

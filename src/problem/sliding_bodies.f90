@@ -106,23 +106,25 @@ contains
 
    end function is_in_slot
 
-   !> The bodies of a pair: those of the first point's first node, which is the slave's, and of its last one; 0: a rigid surface.
+   !> The bodies of a pair: those of the first point's first node, which is the slave's, and of its last one, which is the master's
+   !> or, of a rigid surface that moves, one that carries its motion; 0: a rigid surface that stays, of which a row has no node.
    pure function bodies_of(fem, points) result(b)
       type(fem_t), intent(in) :: fem
       type(contact_points_t), intent(in) :: points    !< of the pair
       integer(ip) :: b(2)
 
       b = fem%bodies%of_node(points%entry([1_ip, points%first(2) - 1]))
-      if (points%rigid) b(2) = 0
+      if (points%rigid .and. b(1) == b(2)) b(2) = 0
    end function bodies_of
 
    !> A free body whose middle is all but the centre of the motion is turned about that one: its rotation then moves no row at all,
-   !> where the distance between both would leave it the little of a translation, which no equation can be solved for.
+   !> where the distance between both would leave it the little of a translation, which no equation can be solved for. A rigid
+   !> surface turns about its reference node.
    pure subroutine turn_about(sliding, body)
       type(sliding_t), intent(in) :: sliding        !< of a pair
       type(body_t), intent(inout) :: body           !< one of the pair's
 
-      if (.not. sliding%is_round .or. size(body%modes, 2) < 3) return
+      if (.not. sliding%is_round .or. body%is_rigid .or. size(body%modes, 2) < 3) return
       if (maxval(abs(sliding%centre - body%centre)) <= ALL_BUT*body%size) body%centre = sliding%centre
    end subroutine turn_about
 
@@ -156,13 +158,12 @@ contains
       is_left_free = maxval(abs(rest)) <= max(motion(4), EXACT)*maxval(abs(motion(:3)))
    end function is_left_free
 
-   !> Adds a motion to those of a body along which its loads are to be balanced, once; rigid bodies have no loads that digits spoil.
+   !> Adds a motion to those of a body along which its loads are to be balanced, once.
    pure subroutine add_motion(motion, body)
       real(wp), intent(in) :: motion(4)             !< from motion_of_body
       type(body_t), intent(inout) :: body           !< one of the pair's
       integer(ip) :: j
 
-      if (body%is_rigid) return
       if (.not. allocated(body%slides)) allocate (body%slides(4, 0))
       do j = 1, size(body%slides, 2, kind=ip)
          if (all(abs(body%slides(:3, j) - motion(:3)) <= motion(4))) return
