@@ -207,13 +207,15 @@ contains
          line%known_slip(j) = row_value(rows, j, rows%tangent(:, j), value)
          line%noise(j) = max(0.0_wp, maxval(abs(value(:, rows%node(rows%first(j):rows%first(j + 1) - 1)))))
       end do
-      do i = 1, size(line%shares, kind=ip)
-         associate (share => line%shares(i))
-            asked = share%part*(rows%gap(share%row) - row_value(rows, share%row, rows%normal(:, share%row), value))
-            line%known_slip(share%point) = line%known_slip(share%point) + asked
-            line%noise(share%point) = max(line%noise(share%point), abs(asked))
-         end associate
-      end do
+      if (allocated(line%shares)) then
+         do i = 1, size(line%shares, kind=ip)
+            associate (share => line%shares(i))
+               asked = share%part*(rows%gap(share%row) - row_value(rows, share%row, rows%normal(:, share%row), value))
+               line%known_slip(share%point) = line%known_slip(share%point) + asked
+               line%noise(share%point) = max(line%noise(share%point), abs(asked))
+            end associate
+         end do
+      end if
       if (allocated(line%moved)) line%noise = max(line%noise, line%moved)
       line%noise = usual_growth(0_ip, 0.0_wp)*EPS_MACH*line%noise
    end subroutine set_known_points

@@ -201,7 +201,7 @@ contains
       integer(ip), intent(in) :: j                  !< point
 
       noise = 0.0_wp
-      if (abs(line%rest(j)) > 0.0_wp .or. abs(line%shear_before(j)) > 0.0_wp) noise = slip_noise(line, j)
+      if (abs(line%rest(j)) > 0.0_wp) noise = slip_noise(line, j)
    end function rest_noise
 
    !> The friction stress of a point whose slip is prescribed. Where nothing moves, exact stick, and a spring that round-off would

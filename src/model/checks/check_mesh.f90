@@ -195,24 +195,23 @@ contains
       type(build_context_t), intent(in) :: context
       logical, allocatable :: lies_over(:)
       integer(ip), allocatable :: found(:)
-      integer(ip), allocatable :: to(:)                ! the corner to which each element round a node goes on; 0: none
-      integer(ip) :: e, k, node, side
+      integer(ip), allocatable :: to(:), last(:)       ! the corners to which sides go on from each node, and the last of them
+      integer(ip) :: e, k, n, side
 
       allocate (lies_over(mesh%n_elements), source=.false.)
-      associate (first => context%around%first)
-         allocate (to(maxval(first(2:mesh%n_nodes + 1) - first(:mesh%n_nodes))), source=0_ip)
-      end associate
-      do node = 1, mesh%n_nodes
-         associate (around => context%around%list(context%around%first(node):context%around%first(node + 1) - 1))
-            do k = 1, size(around, kind=ip)
-               to(k) = 0
-               do side = 1, side_count(mesh, around(k))
-                  if (mesh%nodes(side, around(k)) == node) to(k) = mesh%nodes(face_end(mesh, around(k), side), around(k))
+      allocate (to(size(context%around%list)))
+      last = context%around%first(:mesh%n_nodes) - 1
+      do e = 1, mesh%n_elements
+         n = side_count(mesh, e)
+         do side = 1, n
+            associate (from => mesh%nodes(side, e), end => mesh%nodes(merge(1_ip, side + 1, side == n), e))
+               do k = context%around%first(from), last(from)
+                  if (to(k) == end) lies_over(e) = .true.
                end do
-               if (to(k) == 0) cycle                   ! in the middle of a side
-               if (any(to(:k - 1) == to(k))) lies_over(around(k)) = .true.
-            end do
-         end associate
+               last(from) = last(from) + 1
+               to(last(from)) = end
+            end associate
+         end do
       end do
       found = pack([(e, e=1, mesh%n_elements)], lies_over)
       if (size(found) == 0) return
