@@ -13,7 +13,7 @@ module atrito_turned_points
    real(wp), parameter :: NO_PART = 5.0e-14_wp      !< of a motion, along a normal
    real(wp), parameter :: MOST_TURN = 1.2_wp        !< of a row [rad]: more than coarse chords make of a curve
    real(wp), parameter :: MIXED_TURN = 30.0_wp      !< where one side alone has it: in digit errors over the length of a point
-   real(wp), parameter :: ARC_TURN = 0.1_wp         !< there on an arc: in angles that the length of a point spans
+   real(wp), parameter :: ARC_TURN = 0.3_wp         !< there on an arc: in angles that the length of a point spans
 
 contains
 

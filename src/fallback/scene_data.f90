@@ -220,8 +220,10 @@ contains
       call take_numbering(store, data%held, data%points, data%solver_kind, data%fem, known, model%bilateral)
       if (.not. known) call build_bodies(model, data%held, data%points, data%solver_kind, data%fem)
       if (has_moving_surfaces(model)) call set_rigid_motions(model, data%step%rigid_prescribed, data%fem%bodies)
-      call turn_supports(data%fem, model%bilateral, bilateral)
-      call let_slide(model%interactions(model%pairs%interaction)%nu > 0.0_wp, data%points, data%fem, bilateral)
+      associate (rubs => model%interactions(model%pairs%interaction)%nu > 0.0_wp)
+         call turn_supports(rubs, data%points, data%fem, model%bilateral, bilateral)
+         call let_slide(rubs, data%points, data%fem, bilateral)
+      end associate
       call straighten_held_points(model%bilateral, data%fem, data%points, holder)
       call build_rows(data%points, data%rows, bilateral)
       call move_alloc(holder, data%rows%holder)

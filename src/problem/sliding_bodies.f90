@@ -287,21 +287,27 @@ contains
    !>
    !>     w = perp(x_b - x_a) . (u_b - u_a)/|x_b - x_a|^2,
    !>
-   !> so w s_j is taken out of the row.
-   subroutine turn_supports(fem, bilateral, turned)
+   !> so w s_j is taken out of the row. Supports along a side that rubs stay as they are: they give the slip of its points, and the
+   !> body turns about no place of that side.
+   subroutine turn_supports(rubs, points, fem, bilateral, turned)
+      logical, intent(in) :: rubs(:)                  !< (pairs) with friction
+      type(contact_points_t), intent(in) :: points(:) !< one a pair
       type(fem_t), intent(in) :: fem !< bodies with their rigid modes
       type(bilateral_rows_t), intent(in) :: bilateral !< supports along their own directions
       type(bilateral_rows_t), intent(out) :: turned !< all rows
       real(wp) :: off(bilateral%n), across(2, bilateral%n), digit_error
       integer(ip) :: ends(2, bilateral%n), i
+      logical :: have(0:fem%bodies%n)
 
       turned = bilateral
       if (bilateral%n == 0) return
       if (.not. any(bilateral%kind(:bilateral%n) == ROW_SUPPORT)) return
       off = 0.0_wp
+      have = have_known_slip(rubs, points, fem, bilateral)
       digit_error = printed_digit_error(fem%mesh%x)
       do i = 1, fem%bodies%n
-         if (.not. fem%bodies%list(i)%is_rigid) call find_line(fem, bilateral, i, digit_error, off, across, ends)
+         if (fem%bodies%list(i)%is_rigid .or. have(i)) cycle
+         call find_line(fem, bilateral, i, digit_error, off, across, ends)
       end do
       if (all(off == 0.0_wp)) return
       call begin_rows(turned)
@@ -320,6 +326,35 @@ contains
       end do
       call trim_rows(turned)
    end subroutine turn_supports
+
+   !> Of each body, whether a support along a direction of its own holds a node of a point that rubs along that.
+   pure function have_known_slip(rubs, points, fem, bilateral) result(have)
+      logical, intent(in) :: rubs(:)                  !< (pairs) with friction
+      type(contact_points_t), intent(in) :: points(:) !< one a pair
+      type(fem_t), intent(in) :: fem
+      type(bilateral_rows_t), intent(in) :: bilateral
+      logical :: have(0:fem%bodies%n)
+      integer(ip) :: row_of(fem%mesh%n_nodes), i, j, k
+
+      have = .false.
+      row_of = 0
+      do i = 1, bilateral%n
+         if (bilateral%kind(i) == ROW_SUPPORT) row_of(bilateral%node(bilateral%first(i))) = i
+      end do
+      do i = 1, size(points, kind=ip)
+         if (.not. rubs(i)) cycle
+         do j = 1, points(i)%n
+            do k = points(i)%first(j), points(i)%first(j + 1) - 1
+               associate (row => row_of(points(i)%entry(k)), body => fem%bodies%of_node(points(i)%entry(k)))
+                  if (row == 0) cycle
+                  associate (v => bilateral%vector(:, bilateral%first(row)))
+                     have(body) = have(body) .or. abs(dot_product(v, points(i)%normal(:, j))) <= ALL_BUT*norm2(v)
+                  end associate
+               end associate
+            end do
+         end do
+      end do
+   end function have_known_slip
 
    !> How far the supports of a body are off a line along which they leave a rotation; nothing where there is none.
    subroutine find_line(fem, bilateral, b, digit_error, off, across, ends)

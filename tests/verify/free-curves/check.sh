@@ -80,6 +80,10 @@ drawn() { # NAME CODE DIGITS ANGLE MOMENT SLOT OPTION ...
    shift 6
    run "$code" "$name.inp" "$name" --digits 17 --quiet "$@"
 }
+drawn_turns() { # the same rotation at any angle and number of digits, as far as these tell
+   turn=$(column "$1/rigid.tab" ur)
+   near "$1 turns by" "$turn" "$(column drawn-0/rigid.tab ur)" "$(value "100*10^(1 - $digits)")"
+}
 for slot in 0 1; do
    drawn drawn-$slot 0 17 0 0 $slot
    for digits in 5 6 8 10; do
@@ -90,6 +94,7 @@ for slot in 0 1; do
             grep -q 'W-IDLE.*free to rotate about' "$name.err" || complain "$name: the rotation is not told"
             near "$name pressure" "$(most "$name")" "$(most drawn-$slot)" "$(value "1e4*10^(1 - $digits)*$(most drawn-$slot)")"
             near "$name stays" "$(column "$name/nodes.tab" u1 | awk '{ if ($1*$1 > m*m) m = $1 } END { printf "%.17g", m }')" 0 0.01
+            [ $slot = 1 ] || drawn_turns "$name"
          done
          # in the slot it turns until the straight sides hold it
          drawn "drawn-moment-$slot-$digits-$angle" $((4 - 4*slot)) $digits $angle 0.01 $slot
