@@ -220,7 +220,7 @@ contains
       if (has_moving_surfaces(model)) call set_rigid_motions(model, data%step%rigid_prescribed, data%fem%bodies)
       call turn_supports(data%fem, model%bilateral, bilateral)
       call let_slide(model%interactions(model%pairs%interaction)%nu > 0.0_wp, data%points, data%fem, bilateral)
-      call straighten_held_points(model%bilateral, data%fem, data%points)
+      call straighten_held_points(model%bilateral, model%pairs%gap_is_given, data%fem, data%points)
       call build_rows(data%points, data%rows, bilateral)
       call balance_rows(model%interactions(model%pairs%interaction)%nu > 0.0_wp, data%points, data%fem, bilateral, data%rows)
       if (any(model%interactions%rho > 0.0_wp)) then

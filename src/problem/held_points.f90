@@ -6,6 +6,9 @@
 !> large as the support's over e. So where the normal is off d by no more than it is in doubt, it becomes d, and the point has no
 !> force of its own: the support takes it. Where it is as near to the direction across d it becomes that, and the tangential row has
 !> no force; gap and weight are those that leave the displacement and the force along the new normal what they were.
+!>
+!> Where a node of the slave faces one of the master, the mortar row of a curve has some 1e-4 on further nodes, which nothing holds:
+!> that is an error as well, and does not count.
 module atrito_held_points
    use atrito_assembly, only: fem_t
    use atrito_bilateral_rows, only: bilateral_rows_t, ROW_SUPPORT
@@ -16,13 +19,15 @@ module atrito_held_points
    public :: straighten_held_points
 
    real(wp), parameter :: SAME = 1.0e-12_wp       !< of two unit vectors
+   real(wp), parameter :: LITTLE = 0.01_wp        !< coefficients in a row beside those of two nodes that face each other
 
 contains
 
    !> Turns the normals of such points, and notes which rows are held. Along the new normal n' a gap that is s across the face is
-   !> s/(n . n'), and a weight of w (n . n') leaves the same force along it.
-   pure subroutine straighten_held_points(bilateral, fem, points)
+   !> s/(n . n'), and a weight of w (n . n') leaves the same force along it. A gap that the deck gives stays.
+   pure subroutine straighten_held_points(bilateral, gap_is_given, fem, points)
       type(bilateral_rows_t), intent(in) :: bilateral !< with the supports along their own directions
+      logical, intent(in) :: gap_is_given(:)          !< (pairs)
       type(fem_t), intent(in) :: fem                  !< bodies, mesh
       type(contact_points_t), intent(inout) :: points(:) !< one a pair: normal, gap, weight and held rows change
       real(wp), allocatable :: support(:, :)         ! (2, n_nodes) along what a node is held; 0: not at all
@@ -35,24 +40,47 @@ contains
          if (.not. allocated(points(i)%doubt)) cycle
          allocate (points(i)%is_held(2, points(i)%n), source=.false.)
          do j = 1, points(i)%n
-            associate (nodes => points(i)%entry(points(i)%first(j):points(i)%first(j + 1) - 1))
-               d = common_support(support(:, nodes), is_fixed(nodes))
+            associate (nodes => points(i)%entry(points(i)%first(j):points(i)%first(j + 1) - 1), &
+                       row => points(i)%coefficient(points(i)%first(j):points(i)%first(j + 1) - 1))
+               associate (main => pack(nodes, .not. is_little(row)))
+                  d = common_support(support(:, main), is_fixed(main))
+               end associate
             end associate
             if (.not. norm2(d) > 0.0_wp) cycle
             associate (n => points(i)%normal(:, j), doubt => max(points(i)%doubt(j), SAME))
                points(i)%is_held(2, j) = abs(dot_product(n, d)) <= doubt
                points(i)%is_held(1, j) = abs(n(1)*d(2) - n(2)*d(1)) <= doubt
                if (.not. any(points(i)%is_held(:, j))) cycle
+               call leave_little(points(i)%coefficient(points(i)%first(j):points(i)%first(j + 1) - 1))
                across = [-d(2), d(1)]
                if (points(i)%is_held(1, j)) across = d
                part = abs(dot_product(n, across))
-               points(i)%gap(j) = points(i)%gap(j)/part ! of faces across the old normal, along the new one
+               if (.not. gap_is_given(i)) points(i)%gap(j) = points(i)%gap(j)/part ! of faces across the old normal
                points(i)%weight(j) = points(i)%weight(j)*part ! the same force along it
                n = sign(1.0_wp, dot_product(n, across))*across
             end associate
          end do
       end do
    end subroutine straighten_held_points
+
+   !> What a row has little of goes to the node of the master that it has most of.
+   pure subroutine leave_little(row)
+      real(wp), intent(inout) :: row(:)              !< coefficients
+      integer(ip) :: most
+
+      most = minloc(row, 1, kind=ip)
+      row(most) = row(most) + sum(row, mask=is_little(row))
+      where (is_little(row)) row = 0.0_wp
+   end subroutine leave_little
+
+   !> What is left of a row beside two nodes that face each other, where it is little in sum.
+   pure function is_little(row)
+      real(wp), intent(in) :: row(:)                 !< coefficients
+      logical :: is_little(size(row))
+
+      is_little = sum(abs(row)) - maxval(row) + minval(row) <= LITTLE
+      is_little([maxloc(row), minloc(row)]) = .false.
+   end function is_little
 
    !> The direction along which a node is held: an axis, where one of its dofs has no equation, or that of a support
    !> along one of its own, a bilateral row of this node alone. A node with both, or with no free dof, is held along any
