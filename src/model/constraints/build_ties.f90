@@ -23,8 +23,8 @@ module atrito_build_ties
    character(len=*), parameter :: KEYWORD = 'TIE'
    character(len=*), parameter :: IN_FRONT = 'a master in front of the slave, its outward normal pointing back'
    real(wp), parameter :: USUAL_TOLERANCE = 0.05_wp   !< of the mean face of the master
-   !> Nodes nearer than this part of the slave's faces are in one place, and there no more than a hundredth of a row on further nodes
-   !> is what the curve of the sides leaves of an integral that is 0.
+   !> Nodes nearer than this part of the slave's faces are in one place, and there no more than a hundredth of a row on further
+   !> nodes is what the curve of the sides leaves of an integral that is 0.
    real(wp), parameter :: ONE_PLACE = 1.0e-6_wp, LITTLE = 0.01_wp
 
 contains
@@ -315,8 +315,8 @@ contains
    end subroutine add_tie
 
    !> The coefficients of a point. A node of the slave at one of the master is tied to that alone: the others have integrals of
-   !> psi phi over faces on which phi is linear and 0 at the node, which are 0 on straight sides. On curved ones some 1e-4 is left of
-   !> them, and where supports hold both nodes, as at a line of symmetry, that would hold the next one as well.
+   !> psi phi over faces on which phi is linear and 0 at the node, which are 0 on straight sides. On curved ones some 1e-4 is left
+   !> of them, and where supports hold both nodes, as at a line of symmetry, that would hold the next one as well.
    pure function row_of(model, points, j) result(row)
       type(model_t), intent(in) :: model
       type(contact_points_t), intent(in) :: points
