@@ -407,19 +407,25 @@ contains
 
    !> By what normals may be off [rad]: by the digits of the nodes, 3 g/l_j; and at an end of a chain, where a curve
    !> goes on that the faces do not show, as at a line of symmetry, by half of the turn from one straight face to the
-   !> next, or by what a parabola is off.
-   pure subroutine note_doubt(mesh, slave, digit_error, points)
+   !> next, or by what a parabola is off, of the slave or of the master: the normal is common to both.
+   pure subroutine note_doubt(mesh, slave, master, digit_error, points)
       type(mesh_t), intent(in) :: mesh              !< where the nodes lie
       type(face_list_t), intent(in) :: slave        !< one chain, ordered (order_chain)
+      type(face_list_t), intent(in) :: master       !< none of a drawn line
       real(wp), intent(in) :: digit_error           !< [L]
       type(contact_points_t), intent(inout) :: points !< of the pair
       type(nodal_rule_t) :: rule
       integer(ip) :: i, k, j
-      real(wp) :: turn
+      real(wp) :: turn, opposite
       real(wp), parameter :: HALF = 0.6_wp          !< with some reserve
       real(wp), parameter :: PARABOLA = 1/16.0_wp   !< of a circle's arc it is off by 1/32 of the cube of the angle at its ends
 
       points%doubt = DIGITS_TURN*digit_error/points%length(:points%n)
+      opposite = 0.0_wp
+      do i = 1, master%n
+         rule = nodal_rule(mesh, master%element(i), master%face(i))
+         if (rule%n == 3) opposite = max(opposite, PARABOLA*asin(sine(rule%normal(:, 1), rule%normal(:, 3)))**3)
+      end do
       do k = 1, 2
          i = merge(1_ip, slave%n, k == 1)
          rule = nodal_rule(mesh, slave%element(i), slave%face(i))
@@ -427,7 +433,7 @@ contains
          if (j == 0) cycle
          turn = asin(turn_at(mesh, slave, i, rule))
          if (rule%n == 3) turn = PARABOLA*asin(sine(rule%normal(:, 1), rule%normal(:, 3)))**3
-         points%doubt(j) = max(points%doubt(j), HALF*turn)
+         points%doubt(j) = max(points%doubt(j), HALF*turn, HALF*opposite)
       end do
    end subroutine note_doubt
 

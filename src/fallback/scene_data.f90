@@ -224,7 +224,7 @@ contains
          call turn_supports(rubs, data%points, data%fem, model%bilateral, bilateral)
          call let_slide(rubs, data%points, data%fem, bilateral)
       end associate
-      call straighten_held_points(model%bilateral, data%fem, data%points, holder)
+      call straighten_held_points(model%bilateral, model%pairs%gap_is_given, data%fem, data%points, holder)
       call build_rows(data%points, data%rows, bilateral)
       call move_alloc(holder, data%rows%holder)
       call balance_rows(model%interactions(model%pairs%interaction)%nu > 0.0_wp, data%points, data%fem, bilateral, data%rows)

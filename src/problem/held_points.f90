@@ -10,6 +10,9 @@
 !> What such a point slips by is known: by the values of the supports and by how the nodes move that have no free displacement. Its
 !> friction acts on the supports (contact_rows_t knows which of them holds a node). An equation of a node with such nodes alone,
 !> as with the reference node of a rigid body that is moved, holds the node as a support does; it takes no pressure.
+!>
+!> Where a node of the slave faces one of the master, the mortar row of a curve has some 1e-4 on further nodes, which nothing holds:
+!> that is an error as well, and does not count.
 module atrito_held_points
    use atrito_assembly, only: fem_t
    use atrito_bilateral_rows, only: bilateral_rows_t, ROW_EQUATION, ROW_SUPPORT
@@ -20,13 +23,15 @@ module atrito_held_points
    public :: straighten_held_points
 
    real(wp), parameter :: SAME = 1.0e-12_wp       !< of two unit vectors
+   real(wp), parameter :: LITTLE = 0.01_wp        !< coefficients in a row beside those of two nodes that face each other
 
 contains
 
    !> Turns the normals of such points, and notes which rows are held. Along the new normal n' a gap that is s across the face is
-   !> s/(n . n'), and a weight of w (n . n') leaves the same force along it.
-   pure subroutine straighten_held_points(bilateral, fem, points, holder)
+   !> s/(n . n'), and a weight of w (n . n') leaves the same force along it. A gap that the deck gives stays.
+   pure subroutine straighten_held_points(bilateral, gap_is_given, fem, points, holder)
       type(bilateral_rows_t), intent(in) :: bilateral !< with the supports along their own directions
+      logical, intent(in) :: gap_is_given(:)          !< (pairs)
       type(fem_t), intent(in) :: fem                  !< bodies, mesh
       type(contact_points_t), intent(inout) :: points(:) !< one a pair: normal, gap, weight and held rows change
       integer(ip), allocatable, intent(out) :: holder(:) !< (n_nodes) bilateral row that holds the node; 0: none
@@ -41,16 +46,20 @@ contains
          allocate (points(i)%is_held(2, points(i)%n), source=.false.)
          do j = 1, points(i)%n
             associate (nodes => points(i)%entry(points(i)%first(j):points(i)%first(j + 1) - 1), n => points(i)%normal(:, j), &
+                       row => points(i)%coefficient(points(i)%first(j):points(i)%first(j + 1) - 1), &
                        doubt => max(points(i)%doubt(j), SAME))
-               d = common_support(support(:, nodes), is_fixed(nodes))
+               associate (main => pack(nodes, .not. is_little(row)))
+                  d = common_support(support(:, main), is_fixed(main))
+               end associate
                if (.not. norm2(d) > 0.0_wp) cycle
                points(i)%is_held(2, j) = abs(dot_product(n, d)) <= doubt
                points(i)%is_held(1, j) = abs(n(1)*d(2) - n(2)*d(1)) <= doubt .and. .not. any(is_equation(holder(nodes)))
                if (.not. any(points(i)%is_held(:, j))) cycle
+               call leave_little(row)
                across = [-d(2), d(1)]
                if (points(i)%is_held(1, j)) across = d
                part = abs(dot_product(n, across))
-               points(i)%gap(j) = points(i)%gap(j)/part ! of faces across the old normal, along the new one
+               if (.not. gap_is_given(i)) points(i)%gap(j) = points(i)%gap(j)/part ! of faces across the old normal
                points(i)%weight(j) = points(i)%weight(j)*part ! the same force along it
                n = sign(1.0_wp, dot_product(n, across))*across
             end associate
@@ -67,6 +76,25 @@ contains
       end function is_equation
 
    end subroutine straighten_held_points
+
+   !> What a row has little of goes to the node of the master that it has most of.
+   pure subroutine leave_little(row)
+      real(wp), intent(inout) :: row(:)              !< coefficients
+      integer(ip) :: most
+
+      most = minloc(row, 1, kind=ip)
+      row(most) = row(most) + sum(row, mask=is_little(row))
+      where (is_little(row)) row = 0.0_wp
+   end subroutine leave_little
+
+   !> What is left of a row beside two nodes that face each other, where it is little in sum.
+   pure function is_little(row)
+      real(wp), intent(in) :: row(:)                 !< coefficients
+      logical :: is_little(size(row))
+
+      is_little = sum(abs(row)) - maxval(row) + minval(row) <= LITTLE
+      is_little([maxloc(row), minloc(row)]) = .false.
+   end function is_little
 
    !> The direction along which a node is held: an axis, where one of its dofs has no equation, or that of a support along one of
    !> its own, a bilateral row of this node alone, or of one equation whose other nodes have no free displacement. A node with both,

@@ -26,6 +26,9 @@ module atrito_build_ties
    character(len=*), parameter :: KEYWORD = 'TIE'
    character(len=*), parameter :: IN_FRONT = 'a master in front of the slave, its outward normal pointing back'
    real(wp), parameter :: USUAL_TOLERANCE = 0.05_wp   !< of the mean face of the master
+   !> Nodes nearer than this part of the slave's faces are in one place, and there no more than a hundredth of a row on further
+   !> nodes is what the curve of the sides leaves of an integral that is 0.
+   real(wp), parameter :: ONE_PLACE = 1.0e-6_wp, LITTLE = 0.01_wp
 
 contains
 
@@ -312,7 +315,7 @@ contains
          associate (first => points%first(j), last => points%first(j + 1) - 1)
             do axis = 1, 2
                vectors = reshape([(0.0_wp, k=1, 2*(last - first + 1))], [2, last - first + 1])
-               vectors(axis, :) = points%coefficient(first:last)
+               vectors(axis, :) = row_of(context%model, points, j)
                if (may_turn) call add_lever(context%model%mesh%x(:, points%entry(first:last)), first_of_master(points, j) - first, &
                                             NONE*points%length(j), axis, vectors)
                call add_row(points%entry(first:last), vectors, 0.0_wp, 0.0_wp, points%weight(j), [ROW_TIE, group, i], &
@@ -354,5 +357,28 @@ contains
                                     *reshape([-of_master(2, :), of_master(1, :)], [2, size(of_master, 2)], order=[2, 1])
       end associate
    end subroutine add_lever
+
+   !> The coefficients of a point. A node of the slave at one of the master is tied to that alone: the others have integrals of
+   !> psi phi over faces on which phi is linear and 0 at the node, which are 0 on straight sides. On curved ones some 1e-4 is left
+   !> of them, and where supports hold both nodes, as at a line of symmetry, that would hold the next one as well.
+   pure function row_of(model, points, j) result(row)
+      type(model_t), intent(in) :: model
+      type(contact_points_t), intent(in) :: points
+      integer(ip), intent(in) :: j
+      real(wp), allocatable :: row(:)
+      integer(ip) :: own, partner
+
+      associate (nodes => points%entry(points%first(j):points%first(j + 1) - 1), x => model%mesh%x)
+         row = points%coefficient(points%first(j):points%first(j + 1) - 1)
+         own = findloc(nodes, points%node(j), dim=1, kind=ip)
+         partner = minloc(row, 1, kind=ip)
+         if (own == 0) return
+         if (norm2(x(:, nodes(partner)) - x(:, nodes(own))) > ONE_PLACE*points%length(j)) return
+      end associate
+      if (sum(abs(row)) - abs(row(own)) - abs(row(partner)) > LITTLE) return
+      row = 0.0_wp
+      row(own) = 1.0_wp
+      row(partner) = -1.0_wp
+   end function row_of
 
 end module atrito_build_ties

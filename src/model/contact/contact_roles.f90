@@ -40,6 +40,7 @@ contains
       character(len=:), allocatable :: text, known, told
       real(wp) :: stiffness, fineness, angle
       integer(ip) :: i, former
+      logical :: is_whole
 
       do i = 1, size(context%model%pairs, kind=ip)
          stiffness = slave_stiffness(context%model, i)
@@ -51,7 +52,7 @@ contains
                if (.not. follows_polygon(stiffness, most_fineness(mesh, surfaces(pair%slave)%faces, surfaces(pair%master)%faces), &
                                          angle)) cycle
             end if
-            call compare_sides(context%model, i, fineness, angle)
+            call compare_sides(context%model, i, fineness, angle, is_whole)
             text = 'the slave '//surfaces(pair%slave)%name//' is '
             if (stiffness >= STIFFER .and. stiffness*(fineness - 1) >= FINER) then
                text = text//to_text(stiffness, 2)//' times as stiff as '//surfaces(pair%master)%name//' and '// &
@@ -66,7 +67,7 @@ contains
             else
                cycle
             end if
-            if (can_exchange(context%model, i, clearances)) then
+            if (is_whole .and. can_exchange(context%model, i, clearances)) then
                call report_note(context%deck, context%slaves(i), 'N-ROLES', text//known//' carries the pressures, '// &
                                 surfaces(pair%master)%name//' is the slave', keyword='CONTACT PAIR')
                pair%is_exchanged = .true.
@@ -141,11 +142,12 @@ contains
    end function most_fineness
 
    !> Distances of the slave's points over one of the nodes of the master that they face, and the angle between faces of it there.
-   subroutine compare_sides(model, i, fineness, angle)
+   subroutine compare_sides(model, i, fineness, angle, is_whole)
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: i                     !< the pair
       real(wp), intent(out) :: fineness                !< 0: the slave faces nothing
       real(wp), intent(out) :: angle                   !< of polygon_angle [rad]
+      logical, intent(out) :: is_whole                 !< all of the master is faced: as the slave it has no end between its nodes
       type(contact_points_t), allocatable :: points(:)
       logical, dimension(model%mesh%n_nodes) :: is_faced, is_on_master
       integer(ip) :: k
@@ -160,6 +162,7 @@ contains
          end do
          fineness = real(points(1)%n - 1, wp)/max(count(is_faced .and. is_on_master) - 1, 1)
          angle = polygon_angle(model%mesh, faces, is_faced)
+         is_whole = all(is_faced .or. .not. is_on_master)
       end associate
    end subroutine compare_sides
 

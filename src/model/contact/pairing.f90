@@ -120,7 +120,7 @@ contains
                                                    face_compliance(model, others), points(i))
             if (present(chords)) then
                call list_chords(mesh, slave, others, masters(partners(i)), points(i), digit_error, chords(i))
-               call note_doubt(mesh, slave, chords(i)%digit_error, points(i))
+               call note_doubt(mesh, slave, others, chords(i)%digit_error, points(i))
             end if
          end associate
       end do

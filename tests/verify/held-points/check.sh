@@ -39,4 +39,19 @@ for angle in 0.02 0.2; do
       done
    done
 done
+# a quarter of a shrink fit: nothing is sheared along the fit, at the lines of symmetry neither
+for type in CPE4 CPE8; do
+   for form in dense sparse; do
+      awk -v type=$type 'function ring(name, inside, outside, rows) {
+            printf "*BLOCK, TYPE=%s, ELSET=%s, NX=4, NY=%d\n%s, 0\n%s, 0\n0, %s\n0, %s\n", type, name, rows, inside, outside, outside, inside
+            print "ARC, RIGHT, 0, 0\nARC, LEFT, 0, 0" }
+         BEGIN { ring("IN", "1.", "1.5", 20); ring("OUT", "1.5", "2.", 13)
+            print "*MATERIAL, NAME=M\n*ELASTIC\n500., 0.3\n*SOLID SECTION, ELSET=IN, MATERIAL=M"
+            print "*MATERIAL, NAME=N\n*ELASTIC\n1000., 0.3\n*SOLID SECTION, ELSET=OUT, MATERIAL=N\n*SURFACE INTERACTION, NAME=J\n*FRICTION\n0.2"
+            print "*CONTACT PAIR, INTERACTION=J\nIN-RIGHT, OUT-LEFT\n*CLEARANCE, SLAVE=IN-RIGHT, MASTER=OUT-LEFT, VALUE=-1e-3"
+            print "*BOUNDARY\nIN-BOTTOM, 2\nOUT-BOTTOM, 2\nIN-TOP, 1\nOUT-TOP, 1\n*STEP\n*STATIC\n*END STEP" }' </dev/null >fit.inp
+      run 0 fit.inp fit --digits 17 --quiet --contact $form
+      below "fit of $type, $form: shear over pressure" "$(value "$(summary fit max_abs_shear)/$(summary fit max_pressure)")" 0.01
+   done
+done
 finish

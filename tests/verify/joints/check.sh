@@ -182,4 +182,21 @@ for ends in '3, 101' '101, 3'; do
    near "shortening of SPRINGA $ends" "$(column axial/springs.tab relative_u)" -0.2 1e-14
    near "end of SPRINGA $ends" "$(awk '!/^#/ && $2 == 3 { print $5 }' axial/nodes.tab)" "$(value 0.2/0.6)" 1e-13
 done
+# 14. two quarter rings tied along an arc that ends at supports: Lame's pressure on the tie, and no traction along it
+for n in 32:19 48:12 19:32; do
+   awk -v n="${n%:*}" -v m="${n#*:}" 'function ring(name, inside, outside, rows) {
+         printf "*BLOCK, TYPE=CPE4, ELSET=%s, NX=4, NY=%d\n%s, 0\n%s, 0\n0, %s\n0, %s\n", name, rows, inside, outside, outside, inside
+         print "ARC, RIGHT, 0, 0\nARC, LEFT, 0, 0" }
+      BEGIN { ring("IN", "1.", "1.5", n); ring("OUT", "1.5", "2.", m)
+         print "*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.3\n*SOLID SECTION, ELSET=IN, MATERIAL=M\n*SOLID SECTION, ELSET=OUT, MATERIAL=M"
+         print "*TIE, NAME=GLUE, ADJUST=NO\nIN-RIGHT, OUT-LEFT\n*BOUNDARY\nIN-BOTTOM, 2\nOUT-BOTTOM, 2\nIN-TOP, 1\nOUT-TOP, 1"
+         print "*STEP\n*STATIC\n*DSLOAD\nOUT-RIGHT, P, 1.\n*END STEP" }' </dev/null >tied.inp
+   run 0 tied.inp tied --digits 17
+   grep -q W-DIGITS tied.err && complain "$n: digits"
+   lame=$(value '4/3*(1 - 1/2.25)')
+   traction() { awk -v across="$1" '!/^#/ { r = sqrt($4^2 + $5^2); a = ($8*$4 + $9*$5)/r; if (across) a = ($9*$4 - $8*$5)/r
+      f += a*r; if (a < 0) a = -a; w[++k] = a; if (a > most) most = a } END { printf "%.17g", most }' tied/ties.tab; }
+   near "tied rings, $n: largest pressure" "$(traction 0)" "$lame" 0.07
+   below "tied rings, $n: traction along the tie" "$(traction 1)" 0.03
+done
 finish
