@@ -47,7 +47,7 @@ contains
          end if
          call check_materials(model, context)
          if (has_errors()) return
-         call warn_of_layers(mesh, context)
+         call check_neighbours(mesh, context)
          call note_formulations(model, context)
          found = pack([(i, i=1, mesh%n_nodes)], around(2:mesh%n_nodes + 1) == around(:mesh%n_nodes))
          found = pack(found, [(find_id(context%rigid_bodies, found(i)) == 0, i=1, size(found, kind=ip))])
@@ -189,37 +189,61 @@ contains
                         'CPE9; so CPS), or no common nodes and a *CONTACT PAIR', keyword='ELEMENT')
    end subroutine check_edges
 
-   !> Reports elements that lie over others: both go along a common edge from the same corner to the same.
-   subroutine warn_of_layers(mesh, context)
+   !> Elements round a node stand side by side: each goes on from it to a corner, from which the next one comes. Reports those that
+   !> go on to the same corner, so that one lies over the other, and nodes at which several rows of them begin, which share nothing
+   !> else.
+   subroutine check_neighbours(mesh, context)
       type(mesh_t), intent(in) :: mesh
       type(build_context_t), intent(in) :: context
-      logical, allocatable :: lies_over(:)
+      logical :: lies_over(mesh%n_elements), is_hinge(mesh%n_nodes)
       integer(ip), allocatable :: found(:)
-      integer(ip), allocatable :: to(:)                ! the corner to which each element round a node goes on; 0: none
-      integer(ip) :: e, k, node, side
+      integer(ip), allocatable :: to(:), from(:)       ! corners before and behind the node in each element round it; 0: none
+      integer(ip) :: k, n, node
 
-      allocate (lies_over(mesh%n_elements), source=.false.)
       associate (first => context%around%first)
-         allocate (to(maxval(first(2:mesh%n_nodes + 1) - first(:mesh%n_nodes))), source=0_ip)
+         n = maxval(first(2:mesh%n_nodes + 1) - first(:mesh%n_nodes))
       end associate
+      allocate (to(n), from(n))
+      lies_over = .false.
+      is_hinge = .false.
       do node = 1, mesh%n_nodes
          associate (around => context%around%list(context%around%first(node):context%around%first(node + 1) - 1))
-            do k = 1, size(around, kind=ip)
-               to(k) = 0
-               do side = 1, side_count(mesh, around(k))
-                  if (mesh%nodes(side, around(k)) == node) to(k) = mesh%nodes(face_end(mesh, around(k), side), around(k))
-               end do
-               if (to(k) == 0) cycle                   ! in the middle of a side
-               if (any(to(:k - 1) == to(k))) lies_over(around(k)) = .true.
+            n = size(around, kind=ip)
+            do k = 1, n
+               call find_corners(mesh, around(k), node, from(k), to(k))
+               if (to(k) > 0) lies_over(around(k)) = lies_over(around(k)) .or. any(to(:k - 1) == to(k))
             end do
+            is_hinge(node) = count([(all(from(:n) /= to(k)), k=1, n)]) > 1
          end associate
       end do
-      found = pack([(e, e=1, mesh%n_elements)], lies_over)
-      if (size(found) == 0) return
-      call report_warning(context%deck, place_token(context%deck, context%elements%place(found(1))), 'W-LAYERS', 'element '// &
-                          ids_text(mesh%element_id(found))//' lies over another one, which goes along the same edge in the '// &
-                          'same direction: their stiffnesses, weights and loads add up', &
-                          expected='elements beside each other', keyword='ELEMENT')
-   end subroutine warn_of_layers
+      found = pack([(k, k=1, mesh%n_elements)], lies_over)
+      if (size(found) > 0) then
+         call report_warning(context%deck, place_token(context%deck, context%elements%place(found(1))), 'W-LAYERS', 'element '// &
+                             ids_text(mesh%element_id(found))//' lies over another one, which goes along the same edge in the '// &
+                             'same direction: their stiffnesses, weights and loads add up', &
+                             expected='elements beside each other', keyword='ELEMENT')
+         return
+      end if
+      found = pack([(k, k=1, mesh%n_nodes)], is_hinge)
+      if (size(found) > 0) call report_warning(context%deck, place_token(context%deck, context%nodes%place(found(1))), 'W-HINGE', &
+                            'node '//ids_text(mesh%node_id(found))//' is all that elements on its sides have in common: they '// &
+                            'hang together there as by a hinge', expected='elements that share edges; a node for each body, '// &
+                            'and a *TIE or a *CONTACT PAIR, where two bodies touch', keyword='ELEMENT')
+   end subroutine check_neighbours
+
+   !> The corners before and behind a corner of an element; 0 where the node is none.
+   pure subroutine find_corners(mesh, element, node, before, behind)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: element, node
+      integer(ip), intent(out) :: before, behind
+      integer(ip) :: side
+
+      before = 0
+      behind = 0
+      do side = 1, side_count(mesh, element)
+         if (mesh%nodes(side, element) == node) behind = mesh%nodes(face_end(mesh, element, side), element)
+         if (mesh%nodes(face_end(mesh, element, side), element) == node) before = mesh%nodes(side, element)
+      end do
+   end subroutine find_corners
 
 end module atrito_check_mesh
