@@ -101,12 +101,13 @@ contains
       end do
    end function largest_forces
 
-   !> What the bodies have had, and the motions that forces as theirs make, force over E times thickness: where the forces go straight
-   !> into supports and joints nothing moves, but round-off is that of those motions.
+   !> What the bodies have had, and the motions that forces as theirs make, force over E times thickness: where the forces go
+   !> straight into supports and joints nothing moves, but round-off is that of those motions. Forces of rows count up to the sum
+   !> of all loads.
    pure type(had_t) function had_by_forces(data, solution) result(had)
       type(scene_data_t), intent(in) :: data                !< forces, elasticity, and what bodies had before
       type(contact_solution_t), intent(in) :: solution      !< forces of the rows
-      real(wp) :: stiffness(size(data%fem%sections)), force(0:data%fem%bodies%n), motion(data%fem%bodies%n)
+      real(wp) :: stiffness(size(data%fem%sections)), force(0:data%fem%bodies%n), motion(data%fem%bodies%n), loads
       integer(ip) :: b, i
 
       do i = 1, size(data%fem%sections, kind=ip)
@@ -115,7 +116,9 @@ contains
          end associate
       end do
       if (allocated(data%fem%mesh%thickness)) stiffness = stiffness*minval(data%fem%mesh%thickness)
-      force = largest_forces(data, solution)
+      loads = sum(abs(data%f))
+      if (allocated(data%thermal)) loads = loads + sum(abs(data%thermal))
+      force = min(largest_forces(data, solution), loads)
       motion = 0.0_wp
       do b = 1, data%fem%bodies%n
          associate (body => data%fem%bodies%list(b))
