@@ -27,7 +27,8 @@ module atrito_increment
    use atrito_controls, only: controls_t, METHOD_ANDERSON
    use atrito_final_check, only: check_law
    use atrito_increment_bound, only: prepare_bound, prove_bound
-   use atrito_increment_results, only: begin_early, clear_round_off, clear_what_is_left, complete_results, recover
+   use atrito_increment_results, only: begin_early, clear_round_off, clear_what_is_left, complete_results, had_by_forces, &
+                                       recover
    use atrito_increment_uniqueness, only: judge_uniqueness
    use atrito_idle_motions, only: settle_idle_motions, stop_slow_motion
    use atrito_kinds, only: ip, wp
@@ -165,7 +166,7 @@ contains
       call start_phase('check')
       call check_law(data%rows, data%line, max(controls%tolerance, solution%residual), results, data%fem%bodies%of_node, &
                      [(usual_growth(data%fem%bodies%list(b)%n, results%scene%bodies(b)%digits_lost), b=1, data%fem%bodies%n)], &
-                     data%had, solution%inner%condition, solution%round_off)
+                     had_by_forces(data, solution), solution%inner%condition, solution%round_off)
       if (results%converged .and. .not. results%law_holds .and. data%line%n > 0) then
          call move_alloc(results%verdict, verdict)
          again = .false.

@@ -4,7 +4,7 @@ module atrito_increment_results
    use atrito_body_sums, only: sum_bodies
    use atrito_body_motions, only: add_rigid_motions
    use atrito_contact_rows, only: bodies_of_row
-   use atrito_contact_scales, only: force_round_off, NONE_OF_HAD
+   use atrito_contact_scales, only: force_round_off, had_t, widen, NONE_OF_HAD
    use atrito_contact_solution, only: contact_solution_t
    use atrito_displacements, only: contact_forces
    use atrito_extremes, only: find_extremes
@@ -27,7 +27,7 @@ module atrito_increment_results
    use atrito_weak_forces, only: contact_sizes_t
    implicit none (type, external)
    private
-   public :: begin_early, clear_round_off, clear_what_is_left, complete_results, recover
+   public :: begin_early, clear_round_off, clear_what_is_left, complete_results, had_by_forces, recover
 
    real(wp), parameter :: ROUND_OFF = 1.0e-14_wp            !< of the largest force on a body
 
@@ -68,7 +68,25 @@ contains
       type(scene_data_t), intent(in) :: data
       type(contact_solution_t), intent(inout) :: solution
       real(wp) :: largest(0:data%fem%bodies%n)              ! 0: what has no body
-      integer(ip) :: b, i, j
+      integer(ip) :: i, j
+
+      largest = largest_forces(data, solution)
+      do i = 1, size(data%line%point, kind=ip)
+         j = data%line%point(i)
+         if (j > data%line%n - data%line%n_bilateral) cycle
+         associate (of_row => bodies_of_row(data%rows, j, data%fem%bodies%of_node))
+            if (all(of_row == 0) .or. abs(solution%state%q(i)) > ROUND_OFF*minval(largest(of_row))) cycle
+         end associate
+         call clear_force(data, i, solution)
+      end do
+   end subroutine clear_round_off
+
+   !> (0:bodies) The largest load at a node of each body, or force of a row that sees it [F].
+   pure function largest_forces(data, solution) result(largest)
+      type(scene_data_t), intent(in) :: data
+      type(contact_solution_t), intent(in) :: solution
+      real(wp) :: largest(0:data%fem%bodies%n)
+      integer(ip) :: b, i
 
       largest(0) = huge(1.0_wp)
       do b = 1, data%fem%bodies%n
@@ -81,15 +99,38 @@ contains
             largest(of_row) = max(largest(of_row), abs(solution%state%q(i)))
          end associate
       end do
-      do i = 1, size(data%line%point, kind=ip)
-         j = data%line%point(i)
-         if (j > data%line%n - data%line%n_bilateral) cycle
-         associate (of_row => bodies_of_row(data%rows, j, data%fem%bodies%of_node))
-            if (all(of_row == 0) .or. abs(solution%state%q(i)) > ROUND_OFF*minval(largest(of_row))) cycle
+   end function largest_forces
+
+   !> What the bodies have had, and the motions that forces as theirs make, force over E times thickness: where the forces go
+   !> straight into supports and joints nothing moves, but round-off is that of those motions. Forces of rows count up to the sum
+   !> of all loads.
+   pure type(had_t) function had_by_forces(data, solution) result(had)
+      type(scene_data_t), intent(in) :: data                !< forces, elasticity, and what bodies had before
+      type(contact_solution_t), intent(in) :: solution      !< forces of the rows
+      real(wp) :: stiffness(size(data%fem%sections)), force(0:data%fem%bodies%n), motion(data%fem%bodies%n), loads
+      integer(ip) :: b, i
+
+      do i = 1, size(data%fem%sections, kind=ip)
+         associate (section => data%fem%sections(i))
+            stiffness(i) = section%thickness*merge(section%stiffness(1, 1), section%young, section%is_orthotropic)
          end associate
-         call clear_force(data, i, solution)
       end do
-   end subroutine clear_round_off
+      if (allocated(data%fem%mesh%thickness)) stiffness = stiffness*minval(data%fem%mesh%thickness)
+      loads = sum(abs(data%f))
+      if (allocated(data%thermal)) loads = loads + sum(abs(data%thermal))
+      force = min(largest_forces(data, solution), loads)
+      motion = 0.0_wp
+      do b = 1, data%fem%bodies%n
+         associate (body => data%fem%bodies%list(b))
+            if (body%is_rigid) cycle
+            if (allocated(data%thermal)) force(b) = max(force(b), maxval(abs(data%thermal(:, body%nodes))))
+            motion(b) = force(b)/minval(stiffness(data%fem%section_of(body%elements)))
+         end associate
+      end do
+      where (data%fem%bodies%list%is_rigid) motion = maxval(motion)
+      had = data%had
+      call widen(had, motion, 0.0_wp*motion)
+   end function had_by_forces
 
    !> The force of an unknown, and the stress of its point with it.
    pure subroutine clear_force(data, i, solution)

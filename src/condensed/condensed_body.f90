@@ -218,7 +218,7 @@ contains
          call factor_in_blocks(body%factor, failed)
          if (failed == 0) return
          call set_status(status, STATUS_SINGULAR, 'body '//fem%bodies%list(i_body)%name &
-                         //': its stiffness seen from the contact line is not positive')
+                         //': its stiffness seen from the contact line is not positive: a part of it can move by itself')
       end subroutine factor_contact
 
    end subroutine factor_body

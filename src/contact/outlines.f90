@@ -7,9 +7,9 @@
 !>     front = min s > 0,     back = max s < 0     over the faces of the same body,
 !>
 !> only back < s < front can be seen, so thin plates are not looked through. Of those the nearest is taken, no farther
-!> off than `distance` or half of the longer one of the two faces, as they are in the deck; a rigid surface has to be nearer
-!> than that, and within half of the face. All faces stand in one tree (atrito_piece_tree), so a search takes some log n steps, all of
-!> them n log n.
+!> off than `distance` or half of the longer one of the two faces, as they are in the deck; a rigid surface has to be
+!> nearer than that, and within half of the face. All faces stand in one tree (atrito_piece_tree), so a search takes some
+!> log n steps, all of them n log n.
 module atrito_outlines
    use atrito_element_table, only: MOST_SIDES
    use atrito_face_geometry, only: face_arc_length, outward_normal

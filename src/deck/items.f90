@@ -322,8 +322,8 @@ contains
                         expected=what, keyword=keyword_name(card))
    end subroutine refuse_option
 
-   !> Of a line of n values: `2,5` and `1,2e-5` are decimal commas, `7850, 20` and `7.85e-9,20` have a further item. False: the first,
-   !> reported.
+   !> Of a line of n values: `2,5` and `1,2e-5` are decimal commas, `7850, 20` and `7.85e-9,20` have a further item. False: the
+   !> first, reported.
    logical function check_comma(deck, line, n, expected, keyword) result(ok)
       type(deck_t), intent(in) :: deck                 !< as read; messages name its lines
       type(data_line_t), intent(in) :: line            !< data line

@@ -1,5 +1,6 @@
 !> What it means that no solution was found: there is none, and why; or there may be one, and the last iterate is what there is.
 module atrito_verdict
+   use atrito_bodies, only: mode_at
    use atrito_body_cache, only: body_cache_t
    use atrito_certificate, only: certificate_t, BALANCE_IMPOSSIBLE, BALANCE_POSSIBLE
    use atrito_clp, only: clp_trouble
@@ -7,7 +8,8 @@ module atrito_verdict
    use atrito_contact_problem, only: set_known_points
    use atrito_end_points, only: add_end_points
    use atrito_free_motion, only: free_motion_text
-   use atrito_kinds, only: wp
+   use atrito_dense, only: null_space
+   use atrito_kinds, only: ip, wp
    use atrito_load_digits, only: is_within_digits, take_out
    use atrito_mechanism, only: mechanism_t, describe_motion
    use atrito_model, only: model_t
@@ -16,7 +18,7 @@ module atrito_verdict
    use atrito_results, only: pair_scene_t
    use atrito_scene_data, only: prepare, scene_data_t, solve_options_t
    use atrito_sparse_rows, only: add_transposed, transposed_sizes
-   use atrito_status, only: is_ok, status_t, set_status, STATUS_SINGULAR
+   use atrito_status, only: is_ok, status_t, set_status, STATUS_DECK, STATUS_SINGULAR
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
@@ -27,20 +29,22 @@ module atrito_verdict
 contains
 
    !> Judges a contact line without solution. status: STATUS_SINGULAR with the whole text where no forces that the contact can take
-   !> balance the loads. Else it is OK, and the verdict says more.
+   !> balance the loads, STATUS_DECK where joints contradict each other. Else it is OK, and the verdict says more.
    subroutine judge_balance(data, f_end, pairs, verdict, again, status)
       type(scene_data_t), intent(inout) :: data      !< of the increment; its loads change where `again` says so
       real(wp), intent(in) :: f_end(:, :)            !< (2, n_nodes) applied forces at the end of the step [F]
       type(pair_scene_t), intent(in) :: pairs(:)     !< names of slaves and masters
       character(len=:), allocatable, intent(inout) :: verdict !< why there is no solution
       logical, intent(inout) :: again                !< in: whether loads may change; out: they have, a proof hung on their digits
-      type(status_t), intent(out) :: status          !< OK, or STATUS_SINGULAR with the whole text
+      type(status_t), intent(out) :: status          !< OK, or STATUS_SINGULAR or STATUS_DECK with the whole text
       type(motion_rows_t) :: motions, motions_at_end
       type(certificate_t) :: certificate
       type(mechanism_t) :: mechanism
       character(len=:), allocatable :: ends
       logical :: is_doubtful
 
+      call find_conflict(data, status)
+      if (.not. is_ok(status)) return
       call build_motion_rows(data%fem, data%rows, data%line, data%f, motions)
       call prove_in_own_axes(data%fem, data%rows, data%line, data%f, certificate)
       is_doubtful = .false.
@@ -85,6 +89,97 @@ contains
       end subroutine take_doubtful_out
 
    end subroutine judge_balance
+
+   !> Whether ties, equations, rigid bodies and inclined supports ask for what no displacements have: of their rows M' u = b over
+   !> free dofs and motions some combination M z is 0 and z'b is not. status: STATUS_DECK with their nodes.
+   subroutine find_conflict(data, status)
+      type(scene_data_t), intent(in) :: data
+      type(status_t), intent(out) :: status
+      integer(ip), parameter :: MOST_ROWS = 300, MOST_NAMES = 5 ! that are looked at; told
+      real(wp), parameter :: NONE = 1.0e-9_wp, SHARE = 0.1_wp ! of the terms of a row; of the largest part in a combination
+      integer(ip), allocatable :: used(:), place(:)
+      character(len=:), allocatable :: names
+      real(wp), allocatable :: m(:, :), b(:), terms(:), z(:, :)
+      integer(ip) :: i, info, j, k
+
+      used = [integer(ip) ::]
+      do j = data%rows%n - data%rows%n_bilateral + 1, data%rows%n
+         if (data%line%delta(j) > 0.0_wp .or. data%line%normal(j) == 0) cycle
+         if (all(data%fem%bodies%of_node(data%rows%node(data%rows%first(j):data%rows%first(j + 1) - 1)) > 0)) used = [used, j]
+      end do
+      if (size(used) < 2 .or. size(used) > MOST_ROWS) return
+      call fill_rows(data, used, m, b, terms)
+      call null_space(m, NONE, z, info)
+      if (info /= 0) return
+      do i = 1, size(z, 2, kind=ip)
+         if (abs(dot_product(z(:, i), b)) <= NONE*dot_product(abs(z(:, i)), terms)) cycle
+         place = pack(data%rows%first(used), abs(z(:, i)) > SHARE*maxval(abs(z(:, i))))
+         associate (ids => data%fem%mesh%node_id(data%rows%node(place)))
+            names = to_text(ids(1))
+            do k = 2, min(size(ids, kind=ip), MOST_NAMES)
+               if (all(ids(:k - 1) /= ids(k))) names = names//', '//to_text(ids(k))
+            end do
+         end associate
+         call set_status(status, STATUS_DECK, 'ties, equations, rigid bodies and inclined supports contradict each other, '// &
+                         'or what is prescribed, by some '//to_text(maxval(abs(b)), 2)//' [L], at node '//names)
+         return
+      end do
+   end subroutine find_conflict
+
+   !> A column a row: its coefficients of free dofs, and of the motions of rigid bodies; what prescribed displacements are off by,
+   !> and the sum of their terms [L].
+   subroutine fill_rows(data, used, m, b, terms)
+      type(scene_data_t), intent(in) :: data
+      integer(ip), intent(in) :: used(:)             !< places of the rows
+      real(wp), allocatable, intent(out) :: m(:, :), b(:), terms(:)
+      integer(ip) :: column(2, data%fem%mesh%n_nodes), motion(data%fem%bodies%n), dof, i, j, k, n
+
+      associate (rows => data%rows, bodies => data%fem%bodies, x => data%fem%mesh%x)
+         motion = 0
+         column = 0
+         n = 0
+         do i = 1, bodies%n
+            motion(i) = n                            ! before the first of a rigid body
+            if (bodies%list(i)%is_rigid) n = n + size(bodies%list(i)%modes, 2, kind=ip)
+         end do
+         do i = 1, size(used, kind=ip)
+            do k = rows%first(used(i)), rows%first(used(i) + 1) - 1
+               if (bodies%list(bodies%of_node(rows%node(k)))%is_rigid) cycle
+               do dof = 1, 2
+                  if (data%held(dof, rows%node(k)) .or. column(dof, rows%node(k)) > 0) cycle
+                  n = n + 1
+                  column(dof, rows%node(k)) = n
+               end do
+            end do
+         end do
+         allocate (m(n, size(used)), b(size(used)), terms(size(used)), source=0.0_wp)
+         do i = 1, size(used, kind=ip)
+            b(i) = data%line%known_overlap(used(i))
+            terms(i) = abs(rows%gap(used(i)))
+            do k = rows%first(used(i)), rows%first(used(i) + 1) - 1
+               associate (v => rows%vector(:, k - rows%before_vectors), node => rows%node(k), &
+                          body => bodies%list(bodies%of_node(rows%node(k))), before => motion(bodies%of_node(rows%node(k))))
+                  terms(i) = terms(i) + sum(abs(v*data%value(:, node)))
+                  do dof = 1, 2
+                     if (body%is_rigid) then
+                        do j = 1, size(body%modes, 2, kind=ip)
+                           m(before + j, i) = m(before + j, i) + v(dof)*mode_at(body, body%modes(:, j), x(:, node), dof)
+                        end do
+                     else if (column(dof, node) > 0) then
+                        m(column(dof, node), i) = m(column(dof, node), i) + v(dof)
+                     end if
+                  end do
+               end associate
+            end do
+            associate (size_of_row => norm2(m(:, i)))
+               if (.not. size_of_row > 0.0_wp) cycle ! all are prescribed
+               m(:, i) = m(:, i)/size_of_row
+               b(i) = b(i)/size_of_row
+               terms(i) = terms(i)/size_of_row
+            end associate
+         end do
+      end associate
+   end subroutine fill_rows
 
    !> Whether loads that the points cannot take may be taken by forces at ends of masters, where the slave's nodes beside them leave
    !> no point (atrito_end_points): a text, not allocated where they are not. The motion proves nothing of the bodies then.

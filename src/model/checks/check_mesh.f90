@@ -5,7 +5,7 @@ module atrito_check_mesh
    use atrito_build_context, only: build_context_t, place_token, ids_text, has_errors
    use atrito_element_table, only: SHAPES, DEGREE_OF, can_average
    use atrito_id_map, only: find_id
-   use atrito_kinds, only: ip, wp
+   use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: mesh_t, side_between, side_count, face_end, middle_node
    use atrito_model, only: model_t, FORMULATION_STANDARD, FORMULATION_BBAR
    use atrito_growth, only: number_list_t, add_number, numbers_of
@@ -47,7 +47,7 @@ contains
          end if
          call check_materials(model, context)
          if (has_errors()) return
-         call warn_of_layers(mesh, context)
+         call check_neighbours(mesh, context)
          call note_formulations(model, context)
          found = pack([(i, i=1, mesh%n_nodes)], around(2:mesh%n_nodes + 1) == around(:mesh%n_nodes))
          found = pack(found, [(find_id(context%rigid_bodies, found(i)) == 0, i=1, size(found, kind=ip))])
@@ -189,36 +189,66 @@ contains
                         'CPE9; so CPS), or no common nodes and a *CONTACT PAIR', keyword='ELEMENT')
    end subroutine check_edges
 
-   !> Reports elements that lie over others: both go along a common edge from the same corner to the same.
-   subroutine warn_of_layers(mesh, context)
+   !> Elements round a node stand side by side: each goes on from it to a corner, from which the next one comes. Reports those that
+   !> go on to the same corner, so that one lies over the other, and nodes at which several rows of them begin, which share nothing
+   !> else.
+   subroutine check_neighbours(mesh, context)
       type(mesh_t), intent(in) :: mesh
       type(build_context_t), intent(in) :: context
-      logical, allocatable :: lies_over(:)
+      logical :: lies_over(mesh%n_elements)
       integer(ip), allocatable :: found(:)
-      integer(ip), allocatable :: to(:), last(:)       ! the corners to which sides go on from each node, and the last of them
+      integer(ip), allocatable :: to(:), last(:)       ! corners to which sides go on from each node, and the last of them
+      integer(lp) :: open(mesh%n_nodes)                ! 0 where sides go on to the corners from which others come
       integer(ip) :: e, k, n, side
 
-      allocate (lies_over(mesh%n_elements), source=.false.)
+      lies_over = .false.
+      open = 0
       allocate (to(size(context%around%list)))
       last = context%around%first(:mesh%n_nodes) - 1
       do e = 1, mesh%n_elements
          n = side_count(mesh, e)
          do side = 1, n
-            associate (from => mesh%nodes(side, e), end => mesh%nodes(merge(1_ip, side + 1, side == n), e))
+            associate (from => mesh%nodes(side, e), next => mesh%nodes(merge(1_ip, side + 1, side == n), e))
                do k = context%around%first(from), last(from)
-                  if (to(k) == end) lies_over(e) = .true.
+                  if (to(k) == next) lies_over(e) = .true.
                end do
                last(from) = last(from) + 1
-               to(last(from)) = end
+               to(last(from)) = next
+               open(from) = open(from) + int(next, lp)**2
+               open(next) = open(next) - int(from, lp)**2
             end associate
          end do
       end do
-      found = pack([(e, e=1, mesh%n_elements)], lies_over)
-      if (size(found) == 0) return
-      call report_warning(context%deck, place_token(context%deck, context%elements%place(found(1))), 'W-LAYERS', 'element '// &
-                          ids_text(mesh%element_id(found))//' lies over another one, which goes along the same edge in the '// &
-                          'same direction: their stiffnesses, weights and loads add up', &
-                          expected='elements beside each other', keyword='ELEMENT')
-   end subroutine warn_of_layers
+      found = pack([(k, k=1, mesh%n_elements)], lies_over)
+      if (size(found) > 0) then
+         call report_warning(context%deck, place_token(context%deck, context%elements%place(found(1))), 'W-LAYERS', 'element '// &
+                             ids_text(mesh%element_id(found))//' lies over another one, which goes along the same edge in the '// &
+                             'same direction: their stiffnesses, weights and loads add up', &
+                             expected='elements beside each other', keyword='ELEMENT')
+         return
+      end if
+      found = pack([(k, k=1, mesh%n_nodes)], open /= 0)
+      found = pack(found, [(rows_round(found(k)) > 1, k=1, size(found, kind=ip))])
+      if (size(found) > 0) call report_warning(context%deck, place_token(context%deck, context%nodes%place(found(1))), 'W-HINGE', &
+                            'node '//ids_text(mesh%node_id(found))//' is all that elements on its sides have in common: they '// &
+                            'hang together there as by a hinge', expected='elements that share edges; a node for each body, '// &
+                            'and a *TIE or a *CONTACT PAIR, where two bodies touch', keyword='ELEMENT')
+
+   contains
+
+      !> How many rows of elements begin at a node: sides that go on from it to a corner from which none comes.
+      pure integer(ip) function rows_round(node) result(rows)
+         integer(ip), intent(in) :: node
+         integer(ip) :: i
+
+         rows = 0
+         associate (first => context%around%first(node), behind => context%around%first(node + 1))
+            do i = first, last(node)
+               if (all([(side_between(mesh, context%around%list(k), to(i), node) == 0, k=first, behind - 1)])) rows = rows + 1
+            end do
+         end associate
+      end function rows_round
+
+   end subroutine check_neighbours
 
 end module atrito_check_mesh

@@ -8,7 +8,7 @@
 !> Of equations between two sets the nodes are put into corresponding orders, since the new nodes of a set stand edge by edge,
 !> and edges run either way.
 module atrito_refined_deck
-   use atrito_bilateral_rows, only: ROW_EQUATION
+   use atrito_bilateral_rows, only: ROW_EQUATION, ROW_SPRING
    use atrito_block_map, only: map_point, has_arcs
    use atrito_build_context, only: build_context_t
    use atrito_diagnostics, only: report_error, report_note
@@ -132,6 +132,7 @@ contains
       character(len=8) :: keyword
 
       if (.not. is_refined(context%refinement)) return
+      call note_springs(context)
       if (context%model%equations%n == 0 .and. .not. allocated(context%held_singly)) return
       call list_joined(context, has)
       associate (fine => context%refinement)
@@ -158,6 +159,34 @@ contains
          end do
       end associate
    end subroutine note_free_sides
+
+   !> Reports the first edge of the outline whose nodes all have springs, and whose new nodes have none: the bed is that of the
+   !> deck.
+   subroutine note_springs(context)
+      type(build_context_t), intent(in) :: context
+      logical :: has(context%model%mesh%n_nodes)
+      integer(ip) :: edge, i, n
+
+      has = .false.
+      associate (rows => context%model%bilateral, fine => context%refinement, id => context%model%mesh%node_id)
+         do i = 1, rows%n
+            if (rows%kind(i) /= ROW_SPRING) cycle
+            associate (nodes => rows%node(rows%first(i):rows%first(i + 1) - 1))
+               has(pack(nodes, nodes <= size(has))) = .true.
+            end associate
+         end do
+         if (.not. any(has)) return
+         do edge = 1, fine%n_edges
+            n = merge(3_ip, 2_ip, fine%edge_node(3, edge) > 0)
+            if (fine%edge_element(2, edge) > 0 .or. .not. all(has(fine%edge_node(:n, edge)))) cycle
+            i = findloc(context%deck%cards(:context%deck%n_cards)%name, 'SPRING', dim=1, kind=ip)
+            call report_note(context%deck, context%deck%cards(i)%place, 'N-REFINE', 'springs are those of the deck: the finer '// &
+                             'mesh has nodes between them, as between '//to_text(id(fine%edge_node(1, edge)))//' and '// &
+                             to_text(id(fine%edge_node(2, edge)))//', and they have none', keyword='SPRING')
+            return
+         end do
+      end associate
+   end subroutine note_springs
 
    !> Which dofs of nodes are the first of equations, are others of them, are supported by lines of one node, and by others.
    subroutine list_joined(context, has)
