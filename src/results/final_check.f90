@@ -14,7 +14,7 @@ module atrito_final_check
    use atrito_results, only: results_t
    use atrito_strings, only: to_text
    use atrito_threads, only: is_shared, chunk_count, find_chunk
-   use atrito_weak_forces, only: contact_sizes_t, weak_parts_hold
+   use atrito_weak_forces, only: contact_sizes_t, motion_round_off, weak_parts_hold
    implicit none (type, external)
    private
    public :: check_equilibrium, check_balance, check_law, equilibrium_t
@@ -46,8 +46,8 @@ contains
    !>
    !> The sum goes over the elements, each with its own stiffness, not over the factored or condensed matrices: what went wrong in
    !> these, in the numbering or in the points shows here. A residual passes when it is below FORCE_TOLERANCE of the largest nodal
-   !> force; where it is not, it may still be round-off of large displacements of a stiff body, ROUND_OFFS eps sum |K||u_e|, which
-   !> is computed only then, since it costs as much as the check. Parts of a scene whose forces are small beside the largest are
+   !> force; where it is not, it may still be round-off of large displacements of a stiff body, ROUND_OFFS eps sum |K||u_e|, or of
+   !> a body that moves without strain, which is computed only then, since it costs as much as the check. Parts of a scene whose forces are small beside the largest are
    !> asked by a measure of their own (weak_parts_hold): a light body must not hide behind a heavy one.
    subroutine check_equilibrium(fem, u, f, contact, held, reaction, equilibrium, sizes, thermal)
       type(fem_t), intent(in) :: fem            !< whole scene
@@ -85,6 +85,7 @@ contains
       ! the round-off is asked for where it matters
       if (equilibrium%residual > allowed) then
          round_off = ROUND_OFFS*EPS_MACH*largest_size(fem, u)
+         if (present(sizes)) round_off = round_off + largest_size(fem, motion_round_off(fem, sizes%motion))
          allowed = allowed + round_off
          equilibrium%has_forces = equilibrium%largest_force > round_off .or. any(abs(f) > 0.0_wp)
       end if

@@ -8,7 +8,7 @@ module atrito_weak_forces
    use atrito_kinds, only: ip, wp, EPS_MACH
    implicit none (type, external)
    private
-   public :: contact_sizes_t, weak_parts_hold
+   public :: contact_sizes_t, motion_round_off, weak_parts_hold
 
    !> The forces at the contact points, and how far rigid motions take the bodies.
    type :: contact_sizes_t
@@ -56,6 +56,19 @@ contains
       end do
       holds = bodies_hold(fem, f, contact, held, residual, round_off) .and. pairs_hold(f, held, residual, sizes, round_off)
    end function weak_parts_hold
+
+   !> What is round-off in displacements of which the motion of the body was taken out [L].
+   pure function motion_round_off(fem, motion) result(uncertain)
+      type(fem_t), intent(in) :: fem
+      real(wp), intent(in) :: motion(:)          !< (bodies) how far rigid motions take them [L]
+      real(wp) :: uncertain(2, fem%mesh%n_nodes)
+      integer(ip) :: b
+
+      uncertain = 0.0_wp
+      do b = 1, fem%bodies%n
+         uncertain(:, fem%bodies%list(b)%nodes) = OF_MOTION*EPS_MACH*motion(b)
+      end do
+   end function motion_round_off
 
    !> What round-off, and the printing of small displacements, may do to the displacements [L].
    pure function uncertain_part(fem, u, motion) result(uncertain)
