@@ -191,33 +191,29 @@ contains
 
    !> Elements round a node stand side by side: each goes on from it to a corner, from which the next one comes. Reports those that
    !> go on to the same corner, so that one lies over the other, and nodes at which several rows of them begin, which share nothing
-   !> else.
+   !> else. Either leaves nodes where the corners gone on to are others than those come from; their squares do not add up there.
    subroutine check_neighbours(mesh, context)
       type(mesh_t), intent(in) :: mesh
       type(build_context_t), intent(in) :: context
-      logical :: lies_over(mesh%n_elements)
+      logical :: lies_over(mesh%n_elements), is_hinge(mesh%n_nodes)
+      integer(lp) :: squares(mesh%n_nodes)             ! of the corners gone on to less those come from
       integer(ip), allocatable :: found(:)
-      integer(ip), allocatable :: to(:), last(:)       ! corners to which sides go on from each node, and the last of them
-      integer(lp) :: open(mesh%n_nodes)                ! 0 where sides go on to the corners from which others come
       integer(ip) :: e, k, n, side
 
-      lies_over = .false.
-      open = 0
-      allocate (to(size(context%around%list)))
-      last = context%around%first(:mesh%n_nodes) - 1
+      squares = 0
       do e = 1, mesh%n_elements
          n = side_count(mesh, e)
          do side = 1, n
             associate (from => mesh%nodes(side, e), next => mesh%nodes(merge(1_ip, side + 1, side == n), e))
-               do k = context%around%first(from), last(from)
-                  if (to(k) == next) lies_over(e) = .true.
-               end do
-               last(from) = last(from) + 1
-               to(last(from)) = next
-               open(from) = open(from) + int(next, lp)**2
-               open(next) = open(next) - int(from, lp)**2
+               squares(from) = squares(from) + int(next, lp)**2
+               squares(next) = squares(next) - int(from, lp)**2
             end associate
          end do
+      end do
+      lies_over = .false.
+      is_hinge = .false.
+      do k = 1, mesh%n_nodes
+         if (squares(k) /= 0) call look_round(k, context%around%list(context%around%first(k):context%around%first(k + 1) - 1))
       end do
       found = pack([(k, k=1, mesh%n_elements)], lies_over)
       if (size(found) > 0) then
@@ -227,8 +223,7 @@ contains
                              expected='elements beside each other', keyword='ELEMENT')
          return
       end if
-      found = pack([(k, k=1, mesh%n_nodes)], open /= 0)
-      found = pack(found, [(rows_round(found(k)) > 1, k=1, size(found, kind=ip))])
+      found = pack([(k, k=1, mesh%n_nodes)], is_hinge)
       if (size(found) > 0) call report_warning(context%deck, place_token(context%deck, context%nodes%place(found(1))), 'W-HINGE', &
                             'node '//ids_text(mesh%node_id(found))//' is all that elements on its sides have in common: they '// &
                             'hang together there as by a hinge', expected='elements that share edges; a node for each body, '// &
@@ -236,18 +231,25 @@ contains
 
    contains
 
-      !> How many rows of elements begin at a node: sides that go on from it to a corner from which none comes.
-      pure integer(ip) function rows_round(node) result(rows)
-         integer(ip), intent(in) :: node
-         integer(ip) :: i
+      !> The corners behind and before a node in each element round it.
+      subroutine look_round(node, around)
+         integer(ip), intent(in) :: node, around(:)
+         integer(ip) :: to(size(around)), from(size(around)) ! 0: the node is in the middle of a side
+         integer(ip) :: i, side
 
-         rows = 0
-         associate (first => context%around%first(node), behind => context%around%first(node + 1))
-            do i = first, last(node)
-               if (all([(side_between(mesh, context%around%list(k), to(i), node) == 0, k=first, behind - 1)])) rows = rows + 1
+         to = 0
+         from = 0
+         do i = 1, size(around, kind=ip)
+            do side = 1, side_count(mesh, around(i))
+               associate (a => mesh%nodes(side, around(i)), b => mesh%nodes(face_end(mesh, around(i), side), around(i)))
+                  if (a == node) to(i) = b
+                  if (b == node) from(i) = a
+               end associate
             end do
-         end associate
-      end function rows_round
+            if (to(i) > 0 .and. any(to(:i - 1) == to(i))) lies_over(around(i)) = .true.
+         end do
+         is_hinge(node) = count([(to(i) > 0 .and. all(from /= to(i)), i=1, size(to, kind=ip))]) > 1
+      end subroutine look_round
 
    end subroutine check_neighbours
 
