@@ -12,7 +12,8 @@
 !>       let_out                    not solved, and a motion is idle: out of a thin wedge that friction might hold
 !>
 !> A solution counts where the outer loop has converged and the final check, which knows nothing of how it was found, holds
-!> (is_solved). All attempts begin from the same results (begin_results), so an attempt that fails leaves no trace but its time.
+!> (is_solved). All attempts begin from the same results (begin_results) and loads (put_back_loads), so an attempt that fails leaves no trace
+!> but its time.
 !>
 !> Two steps can find that the loads hang on the last digits of the deck: a roller that would turn for a moment that only rounding
 !> makes. Then these digits are taken out of the loads and the form is solved again, MOST_CHANGES times at most (`again`).
@@ -38,7 +39,7 @@ module atrito_increment
    use atrito_reporter, only: report_progress
    use atrito_results, only: results_t
    use atrito_rigid_results, only: take_rigid_results
-   use atrito_scene_data, only: scene_data_t, assemble, drop_assembled, forces_at_end
+   use atrito_scene_data, only: scene_data_t, assemble, drop_assembled, forces_at_end, put_back_loads
    use atrito_solve_condensed, only: solve_condensed, release_condensed
    use atrito_solve_multiplier, only: solve_multiplier
    use atrito_status, only: status_t, is_ok
@@ -133,6 +134,7 @@ contains
       logical :: again
       integer :: change
 
+      call put_back_loads(data)
       do change = 1, MOST_CHANGES + 1
          again = change <= MOST_CHANGES
          call solve_form(data, form, controls, store, results, solution, u, again, status)

@@ -33,7 +33,7 @@
 !> What a state says makes the equations of a linear solve; what it asks for is looked at afterwards, and nothing else is. With all
 !> of it the conditions of Signorini and of Tresca hold at every point, and the solve is the solution of the QP.
 module atrito_active_set
-   use atrito_free_set, only: solve_free_set, is_vanishing, put_at_bounds, row_round_off, force_round_off
+   use atrito_free_set, only: solve_free_set, is_vanishing, put_at_bounds, bound_round_off, force_round_off
    use atrito_kinds, only: ip, lp, wp, HUGE_REAL
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, box_outcome_t, FREE, AT_LOWER, AT_UPPER
    use atrito_goldfarb_idnani, only: take_goldfarb_idnani_steps
@@ -164,7 +164,7 @@ contains
 
       wrong = merge(state%r(i), -state%r(i), state%state(i) == AT_LOWER) - SLIPS*abs(d(i)*state%q(i))
       is_released = wrong > 0.0_wp
-      if (is_released) is_released = wrong > row_round_off(problem, state, i)
+      if (is_released) is_released = wrong > bound_round_off(problem, state, i)
    end function is_released
 
    !> A number that tells states apart (FNV-1a, of 38 bits: their product with the prime fits into a long integer).

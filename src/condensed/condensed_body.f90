@@ -133,7 +133,7 @@ contains
       element = free_hourglass(fem, fem%bodies%list(i_body))
       if (element > 0) text = 'body '//fem%bodies%list(i_body)%name//': element '//to_text(element)//' can take a shape that '// &
                               'strains none of its points, an hourglass of reduced integration, which no support and no other '// &
-                              'element prevents; full integration (CPE8, CPS8) does, or more elements'
+                              'element prevents; full integration (CPE8, CPS8, CAX8) does, or more elements'
    end function hourglass_text
 
    !> Factors and condenses a body whose solver has its matrix. status: as condense_body.

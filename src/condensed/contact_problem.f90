@@ -17,7 +17,7 @@ module atrito_contact_problem
    use atrito_bound_qp, only: bound_qp_t
    use atrito_condensed_body, only: condensed_body_t, contact_response, add_flexibilities
    use atrito_constraint_rows, only: constraint_rows_t
-   use atrito_contact_line, only: contact_line_t, number_unknowns, rest_of
+   use atrito_contact_line, only: contact_line_t, share_t, number_unknowns, rest_noise, rest_of
    use atrito_contact_rows, only: contact_rows_t, row_value, vector_of_entry
    use atrito_contact_scales, only: usual_growth
    use atrito_bilateral_rows, only: bilateral_rows_t
@@ -68,9 +68,49 @@ contains
          normal_row(j) = has_unknown(fem, rows, j, rows%normal(:, j)) .and. .not. rows%is_held(1, j)
          tangential_row(j) = has_unknown(fem, rows, j, rows%tangent(:, j)) .and. .not. rows%is_held(2, j)
       end do
+      call list_shares(rows, line)
       call set_known_points(rows, value, line)
       call number_unknowns(line, normal_row, tangential_row)
    end subroutine build_line
+
+   !> The part of the friction of points with a known slip that supports along directions of their own take.
+   !>
+   !> Such a support v . u = value at a node takes forces q v from its loads. The vector b of the node in the tangential row is
+   !> along v, so a friction force t w puts b t w = v (b . v/|v|^2) t w there, and the support has so much less.
+   pure subroutine list_shares(rows, line)
+      type(contact_rows_t), intent(in) :: rows       !< with the supports of nodes
+      type(contact_line_t), intent(inout) :: line    !< gets the shares
+      type(share_t) :: shares(merge(size(rows%node), 0, any(rows%is_held(2, :))))
+      integer(ip) :: j, k, n, row
+
+      n = 0
+      do j = 1, merge(rows%n - rows%n_bilateral, 0_ip, allocated(rows%holder))
+         if (.not. rows%is_held(2, j)) cycle
+         do k = rows%first(j), rows%first(j + 1) - 1
+            row = rows%holder(rows%node(k))
+            if (row == 0) cycle
+            row = rows%n - rows%n_bilateral + row
+            n = n + 1
+            associate (v => vector_at_node(rows, row, rows%node(k)))
+               shares(n) = share_t(j, row, dot_product(vector_of_entry(rows, j, k, rows%tangent(:, j)), v)/sum(v**2))
+            end associate
+         end do
+      end do
+      line%shares = shares(:n)
+   end subroutine list_shares
+
+   !> What a bilateral row multiplies the displacement of one of its nodes by.
+   pure function vector_at_node(rows, row, node) result(vector)
+      type(contact_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: row, node
+      real(wp) :: vector(2)
+      integer(ip) :: k
+
+      vector = 0.0_wp
+      do k = rows%first(row), rows%first(row + 1) - 1
+         if (rows%node(k) == node) vector = rows%vector(:, k - rows%before_vectors)
+      end do
+   end function vector_at_node
 
    !> The rows behind the points: without friction, their average their own force.
    !>
@@ -151,12 +191,15 @@ contains
    !> What the contact line knows of points whose dofs are prescribed. No slip is what round-off leaves of the displacements: those
    !> that are prescribed now, and those of before, from which a support may begin.
    !>
-   !> known_overlap: u_n - gap of the prescribed displacements. known_slip: their u_T. noise: round-off of it, which is no slip.
+   !> known_overlap: u_n - gap of the prescribed displacements. known_slip: their u_T, and that of nodes which supports along
+   !> directions of their own hold: the share of what such a row asks for less what its other nodes do. noise: round-off of it,
+   !> which is no slip.
    pure subroutine set_known_points(rows, value, line)
       type(contact_rows_t), intent(in) :: rows !< of all points, over nodes
       real(wp), intent(in) :: value(:, :)            !< (2, n_nodes) prescribed displacements [L]
       type(contact_line_t), intent(inout) :: line    !< known_overlap, known_slip and noise are replaced
-      integer(ip) :: j
+      real(wp) :: asked
+      integer(ip) :: i, j
 
       if (.not. allocated(line%noise)) allocate (line%noise(line%n))
       do j = 1, line%n
@@ -164,6 +207,15 @@ contains
          line%known_slip(j) = row_value(rows, j, rows%tangent(:, j), value)
          line%noise(j) = max(0.0_wp, maxval(abs(value(:, rows%node(rows%first(j):rows%first(j + 1) - 1)))))
       end do
+      if (allocated(line%shares)) then
+         do i = 1, size(line%shares, kind=ip)
+            associate (share => line%shares(i))
+               asked = share%part*(rows%gap(share%row) - row_value(rows, share%row, rows%normal(:, share%row), value))
+               line%known_slip(share%point) = line%known_slip(share%point) + asked
+               line%noise(share%point) = max(line%noise(share%point), abs(asked))
+            end associate
+         end do
+      end if
       if (allocated(line%moved)) line%noise = max(line%noise, line%moved)
       line%noise = usual_growth(0_ip, 0.0_wp)*EPS_MACH*line%noise
    end subroutine set_known_points
@@ -255,6 +307,9 @@ contains
             problem%g0(i) = problem%g0(i) - rest_of(line, line%point(i))
          end if
       end do
+      if (allocated(problem%slip_noise)) deallocate (problem%slip_noise)
+      if (allocated(line%rest)) problem%slip_noise = [(0.0_wp, i=1, problem%n_normal), &
+                                                      (rest_noise(line, line%point(i)), i=problem%n_normal + 1, problem%m)]
       call add_displacements(fem, condensed, b, problem%g0)
       call loads_on_motions(fem, f, problem%h, problem%h_size)
    end subroutine set_right_hand_sides

@@ -36,7 +36,7 @@ module atrito_free_set
    use atrito_status, only: status_t, set_status, STATUS_SINGULAR
    implicit none (type, external)
    private
-   public :: solve_free_set, put_at_bounds, set_residual, clear_vanishing, is_vanishing, row_round_off, &
+   public :: solve_free_set, put_at_bounds, set_residual, clear_vanishing, is_vanishing, row_round_off, bound_round_off, &
              force_round_off
 
    real(wp), parameter :: NULL_MOTION = 1.0e-12_wp  !< eigenvalue of a motion that the free set does not hold
@@ -272,7 +272,18 @@ contains
       slack = CLOSES*slack
    end function row_round_off
 
-   !> The same as a force [F].
+   !> How far r of an unknown at its bound may have the wrong sign [L]: by round-off of its row, and where a point rests that has
+   !> slid, by slips that are none. There r = 0, and what the last digits of the bound make of it must not turn the shear.
+   pure real(wp) function bound_round_off(problem, state, i) result(slack)
+      type(bound_qp_t), intent(in) :: problem
+      type(box_state_t), intent(in) :: state
+      integer(ip), intent(in) :: i
+
+      slack = row_round_off(problem, state, i)
+      if (allocated(problem%slip_noise)) slack = max(slack, problem%slip_noise(i))
+   end function bound_round_off
+
+   !> Round-off of a row as a force [F].
    pure real(wp) function force_round_off(problem, d, state, i) result(force)
       type(bound_qp_t), intent(in) :: problem
       real(wp), intent(in) :: d(:)               !< (m) [L/F]

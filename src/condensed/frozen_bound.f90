@@ -13,7 +13,7 @@
 module atrito_frozen_bound
    use atrito_active_set, only: solve_box, is_settled
    use atrito_bound_qp, only: bound_qp_t, box_outcome_t, box_state_t, FREE, AT_LOWER
-   use atrito_contact_line, only: contact_line_t, last_of_pair, pressure_of, shear_force_of, set_friction_bounds
+   use atrito_contact_line, only: contact_line_t, last_of_pair, pressure_of, find_shear, set_friction_bounds
    use atrito_contact_solution, only: contact_solution_t, bound_of_state, NOISE
    use atrito_free_set, only: solve_free_set, clear_vanishing, force_round_off
    use atrito_kinds, only: ip, wp, HUGE_REAL
@@ -64,7 +64,7 @@ contains
          call clear_noise()
       end if
       solution%p = pressure_of(line, solution%state%q)
-      solution%t = shear_force_of(line, solution%state%q, tau)
+      call find_shear(line, solution%state%q, tau, solution%p, solution%t)
       image = bound_of_state(line, solution)
 
    contains

@@ -15,7 +15,7 @@
 !> of states comes back, and there are finitely many: the method ends. Full steps (atrito_active_set) take fewer solves where they
 !> end. A step costs one linear solve; SOLVES_PER_UNKNOWN limits them.
 module atrito_goldfarb_idnani
-   use atrito_free_set, only: solve_free_set, is_vanishing, put_at_bounds, row_round_off, force_round_off
+   use atrito_free_set, only: solve_free_set, is_vanishing, put_at_bounds, bound_round_off, force_round_off
    use atrito_kinds, only: ip, wp
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_outcome_t, box_state_t, FREE, AT_LOWER, AT_UPPER
    use atrito_free_set_factor, only: free_set_factor_t
@@ -183,7 +183,7 @@ contains
 
       wrong = -sign_of(state%state(i))*state%r(i)
       is_wrong = wrong > 0.0_wp
-      if (is_wrong) is_wrong = wrong > row_round_off(problem, state, i)
+      if (is_wrong) is_wrong = wrong > bound_round_off(problem, state, i)
    end function is_wrong
 
    !> The free unknown that breaks a bound most, as a force; 0 when none does.

@@ -17,7 +17,7 @@
 module atrito_newton
    use atrito_active_set, only: change_states
    use atrito_bound_qp, only: bound_qp_t, FREE, AT_LOWER, AT_UPPER, FROZEN
-   use atrito_contact_line, only: contact_line_t, pressure_of, shear_force_of, set_friction_bounds
+   use atrito_contact_line, only: contact_line_t, pressure_of, find_shear, set_friction_bounds
    use atrito_contact_solution, only: contact_solution_t, bound_of_state, judge_condition, has_settled
    use atrito_controls, only: controls_t
    use atrito_dense, only: solve_lu
@@ -90,7 +90,7 @@ contains
       if (.not. solution%converged) solution%verdict = 'NEWTON did not converge'
       call put_slipping_at_bounds(problem, line, solution)
       solution%p = pressure_of(line, solution%state%q)
-      solution%t = shear_force_of(line, solution%state%q, solution%tau)
+      call find_shear(line, solution%state%q, solution%tau, solution%p, solution%t)
    end subroutine iterate_newton
 
    !> The unknowns that have a row: open points have none, slipping ones have.

@@ -25,7 +25,7 @@ module atrito_points
    !> A motion in which both sides of a pair slide along themselves (atrito_sliding_motions).
    type :: sliding_t
       logical :: exists = .false.                   !< a motion was found
-      logical :: is_of_both = .true.                !< both sides slide along themselves; else one that is straight
+      logical :: is_of_both = .true.                !< both sides slide along themselves; else one that is straight, or round
       logical :: meets_round = .false.              !< the other one is round then
       logical :: is_round = .false.                 !< a rotation about the centre; else a translation
       logical :: is_convex = .false.                !< of the side that it was found by: the centre lies inside its body

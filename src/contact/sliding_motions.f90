@@ -47,7 +47,7 @@ module atrito_sliding_motions
    integer(ip), parameter :: LEAST_CHORDS = 3_ip    !< of a round side: two bisectors always meet
    real(wp), parameter :: FLAT = 1.0e-3_wp          !< sag of a face over its length, of one that is straight
    real(wp), parameter :: EXACT = 1.0e-13_wp        !< digit error over size of nodes that are not rounded to digits
-   real(wp), parameter :: CONCENTRIC = 1.0_wp      !< distance of the centres of a pin and its hole, in radii of the smaller
+   real(wp), parameter :: CONCENTRIC = 1.01_wp     !< distance of centres of a pin and its hole, in radii of the smaller: not round
 
 contains
 
@@ -237,12 +237,15 @@ contains
    !>    (is_of_both = .false.; meets_round where the other side is a circle);
    !> 3. the bisectors of all chords meet in one point: the rotation about the common centre;
    !> 4. each side is round by itself, one convex and one hollow, a pin in a hole with some clearance: the rotation of the
-   !>    pin, if the centres are no farther apart than the smaller radius.
+   !>    pin, if the centres are no farther apart than the smaller radius;
+   !> 5. one side is round and the other has an arc about the same centre beside other faces, a pin in the end of a slot: the
+   !>    rotation, along which the faces of the arc slide (is_of_both = .false.).
    subroutine find_sliding(chords, motion)
       type(chords_t), intent(in) :: chords !< of both sides
       type(sliding_t), intent(out) :: motion !< exists = .false.: there is none
       type(chords_t) :: of_side(2)
       type(sliding_t) :: own(2), round
+      integer(ip) :: i, k
 
       if (.not. (any(chords%of_slave) .and. any(.not. chords%of_slave))) return
       call find_straight(chords, motion)
@@ -261,6 +264,14 @@ contains
       if (motion%exists) return
       call find_round(of_side(1), own(1))
       call find_round(of_side(2), own(2))
+      if (own(1)%exists .neqv. own(2)%exists) then
+         k = merge(1_ip, 2_ip, own(1)%exists)
+         associate (other => of_side(3 - k))
+            if (count([(slides(other, i, own(k)), i=1, other%n)]) < LEAST_CHORDS) return
+         end associate
+         motion = own(k)
+         motion%is_of_both = .false.
+      end if
       if (.not. (own(1)%exists .and. own(2)%exists)) return
       if (own(1)%is_convex .eqv. own(2)%is_convex) return
       if (norm2(own(1)%centre - own(2)%centre) > CONCENTRIC*min(own(1)%radius, own(2)%radius)) return

@@ -12,15 +12,16 @@ module atrito_turned_points
 
    real(wp), parameter :: NO_PART = 5.0e-14_wp      !< of a motion, along a normal
    real(wp), parameter :: MOST_TURN = 1.2_wp        !< of a row [rad]: more than coarse chords make of a curve
-   real(wp), parameter :: MIXED_TURN = 30.0_wp      !< where one side alone is straight: in digit errors over the length of a point
+   real(wp), parameter :: MIXED_TURN = 30.0_wp      !< where one side alone has it: in digit errors over the length of a point
+   real(wp), parameter :: ARC_TURN = 0.3_wp         !< there on an arc: in angles that the length of a point spans
 
 contains
 
    !> Turns the rows of a pair along a motion that both sides have, so that it moves no point along its normal: n . v =
    !> 0. The normal of a point becomes the one across the motion where the force acts on the slave; where the master's
    !> share acts, the motion may have a part along that, and some of the force passes from the nodes on one side of that
-   !> place to those on the other; of a single node to one of those that the points beside it see. Where one side alone is straight,
-   !> points at which the other one has turned away stay as they are.
+   !> place to those on the other; of a single node to one of those that the points beside it see. Where one side alone is straight
+   !> or round, points at which the other one has turned away stay as they are.
    pure subroutine turn_points(motion, mesh, points)
       type(sliding_t), intent(in) :: motion !< in which both sides slide along themselves
       type(mesh_t), intent(in) :: mesh      !< where the nodes lie
@@ -36,10 +37,11 @@ contains
          normal(:, j) = sign(1.0_wp, dot_product(normal(:, j), points%normal(:, j)))*normal(:, j)
          most = MOST_TURN
          if (.not. motion%is_of_both) most = MIXED_TURN*motion%digit_error/points%length(j)
+         if (.not. motion%is_of_both .and. motion%is_round) most = max(most, ARC_TURN*points%length(j)/motion%radius)
          is_turned(j) = norm2(normal(:, j) - points%normal(:, j)) <= most
          if (.not. is_turned(j) .and. motion%is_of_both) return
       end do
-      if (motion%is_round) call lend_nodes(motion, mesh, normal, points)
+      if (motion%is_round) call lend_nodes(motion, mesh, normal, is_turned, points)
       do j = 1, points%n
          if (.not. is_turned(j)) cycle
          points%gap(j) = points%gap(j)/dot_product(normal(:, j), points%normal(:, j)) ! of faces across the old normal
@@ -91,10 +93,11 @@ contains
    !> Gives points whose master is a single node that is off the ray from the centre, by the last digits of the deck, a second one:
    !> of those that the points beside it see, the one that moves most, a2 = n . v(x_2), along its normal. The shares
    !> -a2/(a2 - a1) and a1/(a2 - a1) of both leave no motion along it.
-   pure subroutine lend_nodes(motion, mesh, normal, points)
+   pure subroutine lend_nodes(motion, mesh, normal, is_turned, points)
       type(sliding_t), intent(in) :: motion
       type(mesh_t), intent(in) :: mesh
       real(wp), intent(in) :: normal(:, :)          !< (2, points) that they will have
+      logical, intent(in) :: is_turned(:)           !< (points)
       type(contact_points_t), intent(inout) :: points !< of the pair
       integer(ip), allocatable :: entry(:), seen(:)
       real(wp), allocatable :: coefficient(:), along(:)
@@ -107,7 +110,7 @@ contains
          n = first(j) + points%first(j + 1) - points%first(j)
          entry(first(j):n - 1) = points%entry(points%first(j):points%first(j + 1) - 1)
          coefficient(first(j):n - 1) = points%coefficient(points%first(j):points%first(j + 1) - 1)
-         if (first_of_master(points, j) == points%first(j + 1) - 1) then
+         if (is_turned(j) .and. first_of_master(points, j) == points%first(j + 1) - 1) then
             seen = entry(n - 1:n - 1)
             do i = max(j - 1, 1), min(j + 1, points%n)
                seen = [seen, points%entry(first_of_master(points, i):points%first(i + 1) - 1)]

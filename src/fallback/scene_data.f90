@@ -36,7 +36,7 @@ module atrito_scene_data
    private
    public :: PROOF_AUTO, PROOF_ON, PROOF_OFF
    public :: scene_data_t, solve_options_t, distribution_t, viewer_t, prepare, set_time, assemble, drop_assembled, free_load, &
-             reload, check_known_points, forces_at_end
+             reload, check_known_points, forces_at_end, put_back_loads
 
    !> A bound of the error: where it takes less than half of the time, always, never.
    integer, parameter :: PROOF_AUTO = 1, PROOF_ON = 2, PROOF_OFF = 3
@@ -87,6 +87,7 @@ module atrito_scene_data
       logical :: may_cut = .false.                          !< without a solution a shorter increment is tried
       logical :: asks_for_bases = .false.                   !< the step begins, or the increment before has changed its loads
       real(wp), allocatable :: released(:, :)               !< (2, n_nodes) of supports that the step does not have; they fade [F]
+      real(wp), allocatable :: given(:, :)                  !< f before something was taken out of it [F]; not allocated: nothing was
       type(had_t) :: had                                    !< the largest so far
       type(line_certificate_t), allocatable :: certificate  !< of the flexibility that is there
       real(wp), pointer :: before(:, :) => null()           !< (2, n_nodes) displacements of the increment before [L]
@@ -195,6 +196,7 @@ contains
       type(status_t), intent(out) :: status      !< STATUS_DECK: the averages need more memory than there is
       type(step_t), intent(in), target, optional :: step    !< left out: the first of the model
       type(bilateral_rows_t) :: bilateral                   ! of the model, but for supports that let a body turn
+      integer(ip), allocatable :: holder(:)                 ! of each node: a support along a direction of its own
       logical :: known
 
       data%model => model
@@ -218,10 +220,13 @@ contains
       call take_numbering(store, data%held, data%points, data%solver_kind, data%fem, known, model%bilateral)
       if (.not. known) call build_bodies(model, data%held, data%points, data%solver_kind, data%fem)
       if (has_moving_surfaces(model)) call set_rigid_motions(model, data%step%rigid_prescribed, data%fem%bodies)
-      call turn_supports(data%fem, model%bilateral, bilateral)
-      call let_slide(model%interactions(model%pairs%interaction)%nu > 0.0_wp, data%points, data%fem, bilateral)
-      call straighten_held_points(model%bilateral, data%fem, data%points)
+      associate (rubs => model%interactions(model%pairs%interaction)%nu > 0.0_wp)
+         call turn_supports(rubs, data%points, data%fem, model%bilateral, bilateral)
+         call let_slide(rubs, data%points, data%fem, bilateral)
+      end associate
+      call straighten_held_points(model%bilateral, data%fem, data%points, holder)
       call build_rows(data%points, data%rows, bilateral)
+      call move_alloc(holder, data%rows%holder)
       call balance_rows(model%interactions(model%pairs%interaction)%nu > 0.0_wp, data%points, data%fem, bilateral, data%rows)
       if (any(model%interactions%rho > 0.0_wp)) then
          call check_average_memory(model%deck_path, data%rows%n, &
@@ -244,6 +249,7 @@ contains
       type(scene_data_t), intent(inout) :: data
       type(step_t), intent(in) :: acting                    !< with the values of a time
 
+      if (allocated(data%given)) deallocate (data%given)
       call nodal_loads(data%model, acting, data%f)
       if (has_moving_surfaces(data%model)) call add_rigid_loads(data%model, acting%rigid_loads, data%f)
       call balance_loads(data%fem, data%f)
@@ -379,6 +385,15 @@ contains
 
       if (data%is_assembled) call set_scene_load(data%fem, data%f, free_load(data), data%assembled)
    end subroutine reload
+
+   !> The loads as they were before anything was taken out of them: an attempt that found nothing leaves no trace.
+   subroutine put_back_loads(data)
+      type(scene_data_t), intent(inout) :: data
+
+      if (.not. allocated(data%given)) return
+      call move_alloc(data%given, data%f)
+      call reload(data)
+   end subroutine put_back_loads
 
    !> The matrices are not needed any more.
    subroutine drop_assembled(data)

@@ -25,7 +25,8 @@ module atrito_least_motions
 contains
 
    !> Of the displacements since the increment before, the sums over the nodes of each body with its motions: Z'(u + Z a - u') and
-   !> Z'Z.
+   !> Z'Z. Of a rigid surface these are the four places at its size from its reference node along the axes, counted as three, as
+   !> the nodes that carry its motion are: so the sum is the same however the axes lie.
    pure subroutine measure_motions(fem, u, before, a, off, metric)
       type(fem_t), intent(in) :: fem                        !< bodies with their motions
       real(wp), intent(in) :: u(:, :)                       !< (2, n_nodes) without rigid motions [L]
@@ -33,7 +34,7 @@ contains
       real(wp), intent(in) :: a(:)                          !< (k)
       real(wp), allocatable, intent(out) :: off(:)          !< (k) [L]
       real(wp), allocatable, intent(out) :: metric(:, :, :) !< (3, 3, bodies)
-      real(wp) :: z(2, 3), moved(2)
+      real(wp) :: z(2, 3), moved(2), middle(2, 3), moved_middle(2)
       integer(ip) :: first(fem%bodies%n + 1), b, i
 
       allocate (off(size(a)), metric(3, 3, fem%bodies%n), source=0.0_wp)
@@ -47,11 +48,31 @@ contains
                if (associated(before)) then
                   if (nodes(i) <= size(before, 2)) moved = moved - before(:, nodes(i))
                end if
-               own_off = own_off + matmul(moved, z(:, :n))
-               metric(:, :, b) = metric(:, :, b) + matmul(transpose(z), z)
+               if (fem%bodies%list(b)%is_rigid .and. i == 1) then ! the reference node
+                  middle = z
+                  moved_middle = moved
+                  cycle
+               end if
+               if (fem%bodies%list(b)%is_rigid) then
+                  call add_place(0.75_wp, moved, z(:, :n), own_off, metric(:n, :n, b))
+                  call add_place(0.75_wp, 2*moved_middle - moved, 2*middle(:, :n) - z(:, :n), own_off, metric(:n, :n, b))
+               else
+                  call add_place(1.0_wp, moved, z(:, :n), own_off, metric(:n, :n, b))
+               end if
             end do
          end associate
       end do
+
+   contains
+
+      pure subroutine add_place(weight, moved, z, off, metric)
+         real(wp), intent(in) :: weight, moved(:), z(:, :) !< of the place, (2), (2, n)
+         real(wp), intent(inout) :: off(:), metric(:, :) !< (n), (n, n)
+
+         off = off + weight*matmul(moved, z)
+         metric = metric + weight*matmul(transpose(z), z)
+      end subroutine add_place
+
    end subroutine measure_motions
 
    !> Least squares over the idle motions, V' M V s = -V' off, and the same within the conditions of the rows that do not hold.

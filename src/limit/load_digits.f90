@@ -3,10 +3,12 @@
 !> A roller on one node of its rim, loaded through its centre, stands: nothing but rounding of coordinates, by some units g of their
 !> last digit, makes a moment about that node, which would turn it onto the next one. So where a motion v of the bodies were idle
 !> but for points with small forces, the work W = h'v of the loads is compared with what the digits can make of it: of the forces on
-!> a body that turns by w, of the forces of the points that hold, whose normals are known to some g over their lengths l_j, and of
-!> those on loaded faces, since the ends of a face of length l_f say how much of a pressure acts and whereto,
+!> body that turns by w, of the forces of the points that hold, which have places as well and whose normals are known to some g over
+!> their lengths l_j, and of those on loaded faces, since the ends of a face of length l_f say how much of a pressure acts and
+!> whereto (|w| at a point is the larger one of its two bodies):
 !>
-!>    |W| <= 5 g (sum over bodies of |w| sum |f| + sum over points of |q_j| |v_T,j|/l_j + sum over loaded faces of |f| |v|/l_f).
+!>    |W| <= 5 g (sum over bodies of |w| sum |f| + sum over points of |q_j| (|w| + |v_T,j|/l_j)
+!>                + sum over loaded faces of |f| |v|/l_f)
 !>
 !> Then, and below 2.5e-3 of the forces, which is what four digits leave, it is none, and the least change of the loads takes it out
 !> of them. Normals along an axis, and decks that are not rounded to digits, leave nothing in doubt.
@@ -33,26 +35,24 @@ contains
       type(motion_rows_t), intent(in) :: rows       !< G, and the work of the loads on each motion
       real(wp), intent(in) :: v(:)                  !< (k) its amplitudes
       real(wp), intent(in) :: q(:)                  !< (m) forces of the rows, 0: of those that do not hold [F]
-      real(wp) :: allowed, most, forces, turn, along, sizes(rows%n_columns)
+      real(wp) :: allowed, most, along, sizes(rows%n_columns), turn(0:data%fem%bodies%n)
       integer(ip) :: first(data%fem%bodies%n + 1), b, i, j, k
 
       first = first_motions(data%fem%bodies)
       allowed = 0.0_wp
+      turn(0) = 0.0_wp
       do b = 1, data%fem%bodies%n
          associate (body => data%fem%bodies%list(b))
-            turn = abs(dot_product(body%modes(3, :), v(first(b):first(b + 1) - 1)))
-            if (.not. turn > 0.0_wp) cycle
-            if (body%is_rigid) then
-               is_within_digits = .false.
-               return
-            end if
-            forces = sum(hypot(data%f(1, body%nodes), data%f(2, body%nodes)))
-            allowed = allowed + forces*turn/body%size
+            turn(b) = abs(dot_product(body%modes(3, :), v(first(b):first(b + 1) - 1)))/body%size
+            if (turn(b) > 0.0_wp) allowed = allowed + turn(b)*sum(hypot(data%f(1, body%nodes), data%f(2, body%nodes)))
          end associate
       end do
       do i = 1, rows%n
          j = data%line%point(i)
          if (j > data%rows%n - data%rows%n_bilateral) cycle
+         associate (nodes => data%rows%node(data%rows%first(j):data%rows%first(j + 1) - 1))
+            allowed = allowed + abs(q(i))*maxval(turn(data%fem%bodies%of_node(nodes)))
+         end associate
          if (minval(abs(data%rows%normal(:, j))) <= ALONG_AXIS) cycle
          along = 0.0_wp
          do k = data%rows%first(j), data%rows%first(j + 1) - 1
@@ -127,6 +127,7 @@ contains
       real(wp), allocatable :: small(:, :), own(:)  ! of as many motions as the body has
       integer(ip) :: first(data%fem%bodies%n + 1), b, i, n, info
 
+      if (.not. allocated(data%given)) data%given = data%f
       first = first_motions(data%fem%bodies)
       do b = 1, data%fem%bodies%n
          n = first(b + 1) - first(b)

@@ -39,7 +39,7 @@ module atrito_multiplier_loop
    use atrito_constraint_rows, only: constraint_rows_t
    use atrito_sparse_rows, only: multiply_rows, add_transposed
    use atrito_contact_fronts, only: find_fronts, has_many_points, move_fronts
-   use atrito_contact_line, only: contact_line_t, pressure_of, shear_force_of, normal_bounds, set_friction_bounds, &
+   use atrito_contact_line, only: contact_line_t, pressure_of, find_shear, normal_bounds, set_friction_bounds, &
                                   last_contact_pair, pairs_of_unknowns, tangential_of
    use atrito_contact_solution, only: contact_solution_t, asks_no_force, let_rest, FREE_MOTION, bound_of_state
    use atrito_contact_system, only: contact_system_t
@@ -337,7 +337,7 @@ contains
 
       solution%inner%solved = multipliers%settled
       solution%p = pressure_of(line, solution%state%q)
-      solution%t = shear_force_of(line, solution%state%q, solution%tau)
+      call find_shear(line, solution%state%q, solution%tau, solution%p, solution%t)
       image = bound_of_state(line, solution)
       loop%distance = measure_distance(system, line, multipliers, solution%state%q, solution%tau, image)
       solution%residual = loop%distance%bound
@@ -379,7 +379,7 @@ contains
          state%q(n + 1:) = min(max(state%q(n + 1:), solution%bounds%lower(n + 1:)), solution%bounds%upper(n + 1:))
          where (state%state(n + 1:) /= FREE) state%r(n + 1:) = multipliers%e(n + 1:) - solution%bounds%d(n + 1:)*state%q(n + 1:)
       end associate
-      solution%t = shear_force_of(line, solution%state%q, solution%tau)
+      call find_shear(line, solution%state%q, solution%tau, solution%p, solution%t)
    end subroutine finish
 
    !> Where nothing acts, or nothing any more, what is left of forces and deformation is round-off of the way that the bodies went

@@ -38,6 +38,7 @@ module atrito_bound_qp
       real(wp), allocatable :: h(:)              !< (k) [F]
       real(wp), allocatable :: h_size(:)         !< (k) [F] the same of all forces without sign; not allocated: |h|
       real(wp), allocatable :: weight(:)         !< (m) weight of the point [L^2]: stress = q / weight
+      real(wp), allocatable :: slip_noise(:)     !< (m) slips that are none, of points with a rest slip [L]; not allocated: 0
       logical :: is_coarse = .false.             !< all rows have the round-off of the largest
       logical :: is_logged = .false.             !< every linear solve is kept (solve_log_t), for who wants to look at them
    end type bound_qp_t

@@ -21,8 +21,15 @@ module atrito_contact_line
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, FROZEN
    implicit none (type, external)
    private
-   public :: contact_line_t, number_unknowns, tangential_of, pairs_of_unknowns, last_contact_pair, last_of_pair, pressure_of, &
-             rest_of, shear_force_of, slip_noise, slip_of_unknown, friction_bound, normal_bounds, set_friction_bounds
+   public :: contact_line_t, share_t, number_unknowns, tangential_of, pairs_of_unknowns, last_contact_pair, last_of_pair, &
+             pressure_of, rest_noise, rest_of, shear_force_of, find_shear, slip_noise, slip_of_unknown, friction_bound, &
+             normal_bounds, set_friction_bounds
+
+   !> What a support takes of the friction of a point with a known slip (list_shares).
+   type :: share_t
+      integer(ip) :: point = 0, row = 0               !< of the line
+      real(wp) :: part = 0.0_wp                       !< of the force
+   end type share_t
 
    !> The n points. A point whose row of the contact matrix is zero (its dofs are prescribed) has no unknown; its normal
    !> displacement less the distance, and its slip, are known numbers. The last n_bilateral are no points of contact but bilateral
@@ -46,6 +53,7 @@ module atrito_contact_line
       real(wp), allocatable :: moved(:) !< (n)
       !> What round-off may do to a known slip [L]. Not allocated: 0.
       real(wp), allocatable :: noise(:)               !< (n)
+      type(share_t), allocatable :: shares(:)         !< of friction that supports take; not allocated: none
       integer(ip), allocatable :: point(:)            !< (unknowns) point of each
       integer(ip), allocatable :: pair(:)             !< (n) contact pair of each, ascending; not allocated: one
       logical :: has_friction = .false.               !< some point has a law with friction
@@ -160,6 +168,24 @@ contains
       end do
    end function shear_force_of
 
+   !> The friction, and the forces of supports that hold a known slip without it: their unknowns have the sum of both, since that
+   !> friction has none.
+   pure subroutine find_shear(line, q, tau, p, t)
+      type(contact_line_t), intent(in) :: line !< with the shares of supports
+      real(wp), intent(in) :: q(:), tau(:)          !< (unknowns) [F], (n) friction bounds [F/L^2]
+      real(wp), intent(inout) :: p(:)               !< (n) from pressure_of [F/L^2]
+      real(wp), allocatable, intent(inout) :: t(:)  !< (n) is replaced [F/L^2]
+      integer(ip) :: i
+
+      t = shear_force_of(line, q, tau)
+      if (.not. allocated(line%shares)) return
+      do i = 1, size(line%shares, kind=ip)
+         associate (share => line%shares(i))
+            p(share%row) = p(share%row) - share%part*t(share%point)*line%weight(share%point)/line%weight(share%row)
+         end associate
+      end do
+   end subroutine find_shear
+
    !> What is none of a slip that is known [L].
    pure real(wp) function slip_noise(line, j) result(noise)
       type(contact_line_t), intent(in) :: line
@@ -168,6 +194,15 @@ contains
       noise = 0.0_wp
       if (allocated(line%noise)) noise = line%noise(j)
    end function slip_noise
+
+   !> What is none of a slip that counts from a rest slip [L]; without one every slip is one.
+   pure real(wp) function rest_noise(line, j) result(noise)
+      type(contact_line_t), intent(in) :: line
+      integer(ip), intent(in) :: j                  !< point
+
+      noise = 0.0_wp
+      if (abs(line%rest(j)) > 0.0_wp) noise = slip_noise(line, j)
+   end function rest_noise
 
    !> The friction stress of a point whose slip is prescribed. Where nothing moves, exact stick, and a spring that round-off would
    !> strain, leave it open within its bound: it keeps what it had.

@@ -35,6 +35,7 @@ module atrito_contact_rows
       real(wp), allocatable :: gap(:)                !< (n) initial distance s_j, and overlap that is allowed [L]
       real(wp), allocatable :: doubt(:)              !< (n) by what the normal may be off [rad]
       logical, allocatable :: is_held(:, :)          !< (2, n) supports take what the normal, the tangential row would
+      integer(ip), allocatable :: holder(:)          !< (n_nodes) bilateral row of a support along no axis; 0, not allocated: none
       real(wp), allocatable :: reach(:)              !< (n) length that the point stands for [L]
       real(wp), allocatable :: allowed(:)            !< (n) that overlap [L]; not allocated: none
       integer(ip) :: n_bilateral = 0                 !< rows behind those of points

@@ -106,23 +106,25 @@ contains
 
    end function is_in_slot
 
-   !> The bodies of a pair: those of the first point's first node, which is the slave's, and of its last one; 0: a rigid surface.
+   !> The bodies of a pair: those of the first point's first node, which is the slave's, and of its last one, which is the master's
+   !> or, of a rigid surface that moves, one that carries its motion; 0: a rigid surface that stays, of which a row has no node.
    pure function bodies_of(fem, points) result(b)
       type(fem_t), intent(in) :: fem
       type(contact_points_t), intent(in) :: points    !< of the pair
       integer(ip) :: b(2)
 
       b = fem%bodies%of_node(points%entry([1_ip, points%first(2) - 1]))
-      if (points%rigid) b(2) = 0
+      if (points%rigid .and. b(1) == b(2)) b(2) = 0
    end function bodies_of
 
    !> A free body whose middle is all but the centre of the motion is turned about that one: its rotation then moves no row at all,
-   !> where the distance between both would leave it the little of a translation, which no equation can be solved for.
+   !> where the distance between both would leave it the little of a translation, which no equation can be solved for. A rigid
+   !> surface turns about its reference node.
    pure subroutine turn_about(sliding, body)
       type(sliding_t), intent(in) :: sliding        !< of a pair
       type(body_t), intent(inout) :: body           !< one of the pair's
 
-      if (.not. sliding%is_round .or. size(body%modes, 2) < 3) return
+      if (.not. sliding%is_round .or. body%is_rigid .or. size(body%modes, 2) < 3) return
       if (maxval(abs(sliding%centre - body%centre)) <= ALL_BUT*body%size) body%centre = sliding%centre
    end subroutine turn_about
 
@@ -156,13 +158,12 @@ contains
       is_left_free = maxval(abs(rest)) <= max(motion(4), EXACT)*maxval(abs(motion(:3)))
    end function is_left_free
 
-   !> Adds a motion to those of a body along which its loads are to be balanced, once; rigid bodies have no loads that digits spoil.
+   !> Adds a motion to those of a body along which its loads are to be balanced, once.
    pure subroutine add_motion(motion, body)
       real(wp), intent(in) :: motion(4)             !< from motion_of_body
       type(body_t), intent(inout) :: body           !< one of the pair's
       integer(ip) :: j
 
-      if (body%is_rigid) return
       if (.not. allocated(body%slides)) allocate (body%slides(4, 0))
       do j = 1, size(body%slides, 2, kind=ip)
          if (all(abs(body%slides(:3, j) - motion(:3)) <= motion(4))) return
@@ -286,21 +287,27 @@ contains
    !>
    !>     w = perp(x_b - x_a) . (u_b - u_a)/|x_b - x_a|^2,
    !>
-   !> so w s_j is taken out of the row.
-   subroutine turn_supports(fem, bilateral, turned)
+   !> so w s_j is taken out of the row. Supports along a side that rubs stay as they are: they give the slip of its points, and the
+   !> body turns about no place of that side.
+   subroutine turn_supports(rubs, points, fem, bilateral, turned)
+      logical, intent(in) :: rubs(:)                  !< (pairs) with friction
+      type(contact_points_t), intent(in) :: points(:) !< one a pair
       type(fem_t), intent(in) :: fem !< bodies with their rigid modes
       type(bilateral_rows_t), intent(in) :: bilateral !< supports along their own directions
       type(bilateral_rows_t), intent(out) :: turned !< all rows
       real(wp) :: off(bilateral%n), across(2, bilateral%n), digit_error
       integer(ip) :: ends(2, bilateral%n), i
+      logical :: have(0:fem%bodies%n)
 
       turned = bilateral
       if (bilateral%n == 0) return
       if (.not. any(bilateral%kind(:bilateral%n) == ROW_SUPPORT)) return
       off = 0.0_wp
+      have = have_known_slip(rubs, points, fem, bilateral)
       digit_error = printed_digit_error(fem%mesh%x)
       do i = 1, fem%bodies%n
-         if (.not. fem%bodies%list(i)%is_rigid) call find_line(fem, bilateral, i, digit_error, off, across, ends)
+         if (fem%bodies%list(i)%is_rigid .or. have(i)) cycle
+         call find_line(fem, bilateral, i, digit_error, off, across, ends)
       end do
       if (all(off == 0.0_wp)) return
       call begin_rows(turned)
@@ -319,6 +326,35 @@ contains
       end do
       call trim_rows(turned)
    end subroutine turn_supports
+
+   !> Of each body, whether a support along a direction of its own holds a node of a point that rubs along that.
+   pure function have_known_slip(rubs, points, fem, bilateral) result(have)
+      logical, intent(in) :: rubs(:)                  !< (pairs) with friction
+      type(contact_points_t), intent(in) :: points(:) !< one a pair
+      type(fem_t), intent(in) :: fem
+      type(bilateral_rows_t), intent(in) :: bilateral
+      logical :: have(0:fem%bodies%n)
+      integer(ip) :: row_of(fem%mesh%n_nodes), i, j, k
+
+      have = .false.
+      row_of = 0
+      do i = 1, bilateral%n
+         if (bilateral%kind(i) == ROW_SUPPORT) row_of(bilateral%node(bilateral%first(i))) = i
+      end do
+      do i = 1, size(points, kind=ip)
+         if (.not. rubs(i)) cycle
+         do j = 1, points(i)%n
+            do k = points(i)%first(j), points(i)%first(j + 1) - 1
+               associate (row => row_of(points(i)%entry(k)), body => fem%bodies%of_node(points(i)%entry(k)))
+                  if (row == 0) cycle
+                  associate (v => bilateral%vector(:, bilateral%first(row)))
+                     have(body) = have(body) .or. abs(dot_product(v, points(i)%normal(:, j))) <= ALL_BUT*norm2(v)
+                  end associate
+               end associate
+            end do
+         end do
+      end do
+   end function have_known_slip
 
    !> How far the supports of a body are off a line along which they leave a rotation; nothing where there is none.
    subroutine find_line(fem, bilateral, b, digit_error, off, across, ends)

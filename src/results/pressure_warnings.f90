@@ -1,10 +1,11 @@
-!> What the pressures of a pair show by themselves: too few points carry a contact of sides that curve apart, pressures that go up
-!> and down from point to point, pairs that never close.
+!> What the pressures of a pair show by themselves: too few points carry a contact of sides that curve apart, or too few faces of
+!> the master face it, pressures that go up and down from point to point, pairs that never close.
 !>
-!> All of it is judged by the points and their pressures alone, each pair in the increment in which it carries most.
+!> All of it is judged by the points and their pressures, each pair in the increment in which it carries most.
 module atrito_pressure_warnings
    use atrito_element_table, only: DEGREE_OF
    use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: face_nodes
    use atrito_messages, only: add_note, add_warning
    use atrito_model, only: model_t
    use atrito_points, only: contact_points_t
@@ -18,6 +19,7 @@ module atrito_pressure_warnings
    type :: few_points_t
       integer(ip) :: n = 0                       !< closed points, 0: none; where the zone ends with the surface, as in its mirror
       integer(ip) :: point = 0                   !< the one with the largest pressure
+      logical :: of_master = .false.             !< n counts distances of the master's nodes along the zone
    end type few_points_t
 
    !> A stretch of points whose pressures go up and down.
@@ -28,8 +30,11 @@ module atrito_pressure_warnings
    end type alternation_t
 
    !> Closed points from which on the largest pressure of Hertz is off by less than 5 %, on faces with two nodes and with three
-   !> (tests/verify/few-points has the errors).
+   !> (tests/verify/pressures-told has the errors).
    integer(ip), parameter :: ENOUGH(2) = [4_ip, 6_ip]
+   !> Distances of the master's nodes along the zone from which on they let a finer slave have Hertz's pressure to as much: what the
+   !> master cannot follow the slave takes, on one straight face three times the pressure (tests/verify/pressures-told).
+   real(wp), parameter :: ENOUGH_OPPOSITE = 3.5_wp
    !> What round-off, and the shape of faces, leave of a gap that opens, as a part of the gap that is there under load.
    real(wp), parameter :: OPENS = 0.5_wp
    !> By what part the slope of a gap that curves grows from one face to the next: a parabola with 6 points has 2/7, a wedge 0.
@@ -61,7 +66,7 @@ contains
       pair_of_few = 0
       pair_of_worst = 0
       do i = 1, size(model%points, kind=ip)
-         call find_few_points(model%points(i), most(i), ENOUGH(degree_of_slave(model, i)), few)
+         call find_few_points(model%points(i), most(i), ENOUGH(degree_of_slave(model, i)), few, spacing_opposite(model, i, most(i)))
          if (few%n > 0) then
             n_few = n_few + 1
             if (pair_of_few == 0 .or. few%n < fewest%n) then
@@ -123,6 +128,33 @@ contains
       degree = DEGREE_OF(model%mesh%shape(model%surfaces(model%pairs(i)%slave)%faces%element(1)))
    end function degree_of_slave
 
+   !> The mean distance of the master's nodes [L] on the faces that closed points face; 0 of a rigid one, and without such points.
+   pure real(wp) function spacing_opposite(model, i, contact) result(spacing)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: i                           !< the pair
+      type(contact_result_t), intent(in) :: contact          !< of the pair
+      logical, allocatable :: is_faced(:)
+      integer(ip) :: j, k, n
+
+      spacing = 0.0_wp
+      if (model%points(i)%rigid .or. .not. any(contact%pressure > 0.0_wp)) return
+      allocate (is_faced(model%mesh%n_nodes), source=.false.)
+      associate (points => model%points(i), faces => model%surfaces(model%pairs(i)%master)%faces)
+         do j = 1, points%n
+            if (contact%pressure(j) > 0.0_wp) is_faced(points%entry(points%first(j):points%first(j + 1) - 1)) = .true.
+         end do
+         n = 0
+         do k = 1, faces%n
+            associate (nodes => face_nodes(model%mesh, faces%element(k), faces%face(k)))
+               if (.not. all(is_faced(nodes(:2)))) cycle
+               spacing = spacing + norm2(model%mesh%x(:, nodes(2)) - model%mesh%x(:, nodes(1)))
+               n = n + size(nodes, kind=ip) - 1
+            end associate
+         end do
+      end associate
+      spacing = spacing/max(n, 1_ip)
+   end function spacing_opposite
+
    subroutine tell_few_points(model, pair, i, few, n)
       type(model_t), intent(in) :: model
       type(pair_scene_t), intent(in) :: pair
@@ -132,6 +164,10 @@ contains
       character(len=:), allocatable :: error, text
       integer(ip) :: degree
 
+      if (few%of_master) then
+         call tell_few_faces(model, pair, i, few, n)
+         return
+      end if
       ! the largest errors of Hertz's pressure that were seen with so many points
       degree = degree_of_slave(model, i)
       error = '10 %'
@@ -146,6 +182,27 @@ contains
       if (n > 1) text = text//'; so do they in '//to_text(n - 1)//' more pairs'
       call add_warning('W-FEW-POINTS', text)
    end subroutine tell_few_points
+
+   !> The same of a zone that too few faces of the master face.
+   subroutine tell_few_faces(model, pair, i, few, n)
+      type(model_t), intent(in) :: model
+      type(pair_scene_t), intent(in) :: pair
+      integer(ip), intent(in) :: i                           !< the pair
+      type(few_points_t), intent(in) :: few
+      integer(ip), intent(in) :: n                           !< pairs of the kind
+      character(len=:), allocatable :: text
+
+      associate (x => model%points(i)%x(:, few%point), node => model%mesh%node_id(model%points(i)%node(few%point)))
+         text = pair%slave//' on '//pair%master//': sides that curve apart touch round node '//to_text(node)//' ('// &
+                to_text(x(1), 5)//', '//to_text(x(2), 5)//') over hardly '//to_text(few%n)// &
+                trim(merge(' distance ', ' distances', few%n == 1))//' of the nodes of '//pair%master// &
+                ', which cannot follow the finer slave; the largest pressure may be '// &
+                trim(merge('several times too large', 'half too large         ', few%n == 1))//'. Faces of '//pair%master// &
+                ' of 1/'//to_text(merge(5_ip, (4 + few%n)/few%n, few%n == 1))//' of their length help, or that side as slave'
+      end associate
+      if (n > 1) text = text//'; so it is in '//to_text(n - 1)//' more pairs'
+      call add_warning('W-FEW-POINTS', text)
+   end subroutine tell_few_faces
 
    subroutine tell_alternation(pair, points, found, n)
       type(pair_scene_t), intent(in) :: pair
@@ -191,34 +248,50 @@ contains
 
    !> The zone of pressure with the fewest points among those that are less than enough, where the sides curve apart beside it: the
    !> gap that they had without load opens on all free sides of the zone, and ever faster. A hinge of straight sides has no such
-   !> gap, that of a wedge opens evenly. Where a zone ends with the surface it is the half of one, as at a line of symmetry.
-   pure subroutine find_few_points(points, contact, enough_points, few)
+   !> gap, that of a wedge opens evenly. Where a zone ends with the surface it is the half of one, as at a line of symmetry. Where
+   !> there are enough points the master's nodes may lie too far apart. A single open point between closed ones does not end a zone.
+   pure subroutine find_few_points(points, contact, enough_points, few, spacing)
       type(contact_points_t), intent(in) :: points  !< of the pair
       type(contact_result_t), intent(in) :: contact !< of the pair
       integer(ip), intent(in) :: enough_points      !< > 1
       type(few_points_t), intent(out) :: few        !< n 0: there is no such zone
-      integer(ip) :: before(points%n), behind(points%n), j, last, n
-      logical :: ends(2)
+      real(wp), intent(in), optional :: spacing     !< of the master's nodes [L]; 0, left out: a rigid one
+      real(wp) :: length, stride
+      integer(ip) :: before(points%n), behind(points%n), j, k, last, n
+      logical :: ends(2), of_master
 
       call link_neighbours(points, contact, before, behind)
       do j = 1, points%n
          if (contact%pressure(j) <= 0.0_wp) cycle
-         if (before(j) > 0) then
-            if (contact%pressure(before(j)) > 0.0_wp) cycle
-         end if
+         if (next_closed(contact, j, before) > 0) cycle
          last = j
-         n = 1
-         do while (behind(last) > 0 .and. n < enough_points)
-            if (contact%pressure(behind(last)) <= 0.0_wp) exit
-            last = behind(last)
+         n = 0
+         length = 0.0_wp
+         k = j
+         do while (k > 0)
+            last = k
             n = n + 1
+            length = length + points%length(k)
+            k = next_closed(contact, k, behind)
          end do
          ends = [before(j) == 0, behind(last) == 0]
          if (all(ends)) cycle
-         if (any(ends)) n = 2*n - 1
-         if (n >= enough_points .or. (few%n > 0 .and. n >= few%n)) cycle
-         if (.not. (curves_apart(points, contact, j, before) .and. curves_apart(points, contact, last, behind))) cycle
+         if (any(ends)) then
+            n = 2*n - 1
+            length = 2*length
+         end if
+         of_master = .false.
+         if (n >= enough_points .and. present(spacing)) then
+            of_master = length < ENOUGH_OPPOSITE*spacing
+            if (of_master) n = max(nint(length/spacing, ip), 1_ip)
+         end if
+         if (.not. (n < enough_points .or. of_master) .or. (few%n > 0 .and. n >= few%n)) cycle
+         stride = 0.0_wp
+         if (of_master) stride = spacing
+         if (.not. curves_apart(points, contact, j, before, stride)) cycle
+         if (.not. curves_apart(points, contact, last, behind, stride)) cycle
          few%n = n
+         few%of_master = of_master
          few%point = j
          do while (last /= j)
             if (contact%pressure(last) > contact%pressure(few%point)) few%point = last
@@ -249,27 +322,63 @@ contains
       end associate
    end subroutine link_neighbours
 
+   !> The closed point that follows one, or the one behind that; 0: neither is.
+   pure integer(ip) function next_closed(contact, j, next) result(k)
+      type(contact_result_t), intent(in) :: contact
+      integer(ip), intent(in) :: j
+      integer(ip), intent(in) :: next(:)                     !< the point beyond each
+
+      k = next(j)
+      if (k == 0) return
+      if (contact%pressure(k) > 0.0_wp) return
+      k = next(k)
+      if (k == 0) return
+      if (contact%pressure(k) <= 0.0_wp) k = 0
+   end function next_closed
+
    !> Whether the sides curve away from each other beyond the end of a zone; so they do, as far as is known, where the surface ends.
-   pure logical function curves_apart(points, contact, edge, next) result(apart)
+   !> Gaps are compared at three points, the next ones or such as are no nearer to each other than the stride: within a face of the
+   !> master the gap is what its chord makes of it.
+   pure logical function curves_apart(points, contact, edge, next, stride) result(apart)
       type(contact_points_t), intent(in) :: points
       type(contact_result_t), intent(in) :: contact
       integer(ip), intent(in) :: edge                        !< the last closed point
       integer(ip), intent(in) :: next(:)                     !< the point beyond each
+      real(wp), intent(in) :: stride                         !< [L]
       real(wp) :: growth, beyond
       integer(ip) :: first, second
 
       apart = .true.
-      first = next(edge)
-      if (first == 0) return
+      if (next(edge) == 0) return
       apart = .false.
-      second = next(first)
-      if (second == 0) return
+      first = beyond_stride(edge)
+      second = 0
+      if (first > 0) second = beyond_stride(first)
+      if (second == 0) then                                  ! the surface is shorter
+         first = next(edge)
+         second = next(first)
+         if (second == 0) return
+      end if
       if (contact%pressure(second) > 0.0_wp) return
       growth = points%gap(first) - points%gap(edge)
       if (growth <= OPENS*contact%gap(first)) return
       growth = growth/norm2(points%x(:, first) - points%x(:, edge))
       beyond = (points%gap(second) - points%gap(first))/norm2(points%x(:, second) - points%x(:, first))
       apart = beyond - growth > CURVES*beyond
+
+   contains
+
+      !> The next point that is as far as the stride; 0: the surface ends before.
+      pure integer(ip) function beyond_stride(j) result(k)
+         integer(ip), intent(in) :: j
+
+         k = next(j)
+         do while (k > 0)
+            if (norm2(points%x(:, k) - points%x(:, j)) >= stride) return
+            k = next(k)
+            if (k == j) k = 0
+         end do
+      end function beyond_stride
    end function curves_apart
 
    !> The longest stretch in which the pressure has more extremes, no more than NEAR points apart, than any edge makes.

@@ -127,7 +127,7 @@ contains
          if (ratio <= LARGE_HOURGLASS) cycle
      call add_warning('W-HOURGLASS', 'body '//data%fem%bodies%list(b)%name//': elements in one row take the shape that reduced '// &
                          'integration hardly feels, an hourglass, most of all element '//to_text(element)//': full integration '// &
-                          'would see '//to_text(ratio, 2)//' times the strain energy in it; CPE8 or CPS8 there, or more rows')
+                          'would see '//to_text(ratio, 2)//' times the strain energy in it; CPE8, CPS8 or CAX8 there, or more rows')
       end do
    end subroutine warn_of_hourglass
 

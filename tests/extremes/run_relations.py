@@ -7,8 +7,8 @@ turned, mirrored, in other units (of a curved scene with all digits), with other
 two threads; with an empty step behind it, its step in two, and begun again by --restart. Exit codes and W-IDLE must be the same, and
 all numbers of nodes.tab, reactions.tab, stress.tab (its invariants, point by point) and contact.tab to 1e-9 of the largest of their
 column (of a pair in contact.tab), after they were turned back. Where a deck with all digits differs more, or another one by less than 1e-5, or by any part where the program tells that
-pressures hang on the digits of coordinates (W-DIGITS), it is measured what the digits are worth: both decks are run with places that
-are off by the last digit. If its answer moves by as much, the scene is `loose`, and says nothing. Neither does it where one run ends
+pressures hang on the digits of coordinates (W-DIGITS), with another solver or form, too, it is measured what the digits are worth: both
+decks are run with places that are off by the last digit. If its answer moves by as much, the scene is `loose`, and says nothing. Neither does it where one run ends
 with exit 3 and the other has friction that the last digits move by more than 1e-7, which to the program is no solution. Where one ends
 with exit 4 and the other with 3, since it is too near the limit, the places are off by as much as the deck of all digits is. Where
 friction acts to 1e-7, which is what the outer loop is stopped at, and only where both forms agree so far (else there may be several
@@ -221,6 +221,9 @@ def compare_all(settings, outcome, deck, base):
             forms[name] = compare(settings, outcome, base, first, Result(settings, deck.text(), base, 'other', options), Back(), name)
     if outcome.has_friction:
         outcome.is_one = all(forms[name] <= WITH_FRICTION for name in ('dense form', 'sparse form'))
+    for name in OTHER_OPTIONS:
+        if name in outcome.found and name in outcome.told and not good(outcome, name):
+            measure_digits(settings, outcome, (deck,), base, name)
     exact = Deck(deck_of(settings, outcome.number, digits=17)[1])
     all_digits = first
     if exact.text() == deck.text() and relations.has_few_digits(deck):

@@ -1,7 +1,7 @@
 !> Checks of the contact pairs: first what their surfaces are, then, in a model that is right otherwise, where their points lie.
 module atrito_check_contact
    use atrito_average, only: least_spacing
-   use atrito_contact_roles, only: STIFFER
+   use atrito_contact_roles, only: follows_polygon, polygon_angle, STIFFER
    use atrito_deck, only: token_t
    use atrito_diagnostics, only: report_error, report_warning, report_note
    use atrito_build_context, only: build_context_t, ids_text, place_text, has_errors, is_invalid
@@ -329,9 +329,21 @@ contains
                                 'lie '//to_text(points%coarseness, 2)//' times as far apart as those of the master, and with '// &
                                 'QUADRATURE=NODAL nothing keeps the master out between them', &
                                 expected='QUADRATURE=MORTAR'//trim(merge(', or the finer side as slave', repeat(' ', 28), &
-                                                               slave_stiffness(model, i)*STIFFER > 1.0_wp)), keyword='CONTACT PAIR')
+                                                                         can_be_master())), keyword='CONTACT PAIR')
          end if
       end associate
+
+   contains
+
+      !> Whether the pressures of the other side are stable: that is not much stiffer, and no polygon is its master.
+      logical function can_be_master() result(can)
+         real(wp) :: stiffness
+
+         stiffness = slave_stiffness(model, i)
+         can = stiffness*STIFFER > 1.0_wp
+         if (can) can = .not. follows_polygon(1/stiffness, model%points(i)%coarseness, &
+                                              polygon_angle(model%mesh, model%surfaces(model%pairs(i)%slave)%faces))
+      end function can_be_master
    end subroutine judge_points
 
    !> The radius of the average against the distance of the points.

@@ -1,7 +1,9 @@
 !> What a deck may well say and hardly means: bodies that overlap before they are loaded, loads on faces that touch, and pairs that
 !> say the same thing twice: the same faces face each other in both, as slave and master or the other way round. Each pair takes a
-!> part of the pressure then, and a contact that yields (LINEAR) is twice as stiff.
+!> part of the pressure then, and a contact that yields (LINEAR) is twice as stiff. Where a tie holds these faces, too, contact may
+!> press as hard as the tie pulls.
 module atrito_check_contact_sense
+   use atrito_bilateral_rows, only: ROW_TIE
    use atrito_build_context, only: build_context_t, ids_text
    use atrito_deck, only: line_item
    use atrito_diagnostics, only: report_warning
@@ -177,9 +179,10 @@ contains
       character(len=:), allocatable :: text, advice
       real(wp) :: a(2), b(2)
 
-      if (size(model%pairs) < 2) return
       allocate (sides(size(model%pairs)))
       call list_sides(model, sides)
+      if (allocated(model%ties)) call warn_of_tied_pairs(model, context, sides)
+      if (size(model%pairs) < 2) return
       call find_twins(model, sides, twin)
       k = findloc(twin > 0, .true., dim=1, kind=ip)
       if (k == 0) return
@@ -202,6 +205,54 @@ contains
       end if
       call report_warning(context%deck, context%slaves(k), 'W-TWICE', text, expected=advice, keyword='CONTACT PAIR')
    end subroutine warn_of_pairs_twice
+
+   !> The first pair whose faces a tie holds together, and how many others there are: both ends of a face of either side are in the
+   !> rows of one tie.
+   subroutine warn_of_tied_pairs(model, context, sides)
+      type(model_t), intent(in) :: model
+      type(build_context_t), intent(in) :: context
+      type(sides_t), intent(in) :: sides(:)            !< of all pairs
+      character(len=:), allocatable :: text
+      logical :: is_tied(model%mesh%n_nodes)
+      integer(ip) :: by(size(sides)), i, k, row        ! by: the tie of each pair, 0: none
+
+      by = 0
+      do k = 1, size(model%ties, kind=ip)
+         is_tied = .false.
+         associate (rows => model%bilateral)
+            do row = 1, rows%n
+               if (rows%kind(row) /= ROW_TIE .or. rows%part(row) /= k) cycle
+               is_tied(rows%node(rows%first(row):rows%first(row + 1) - 1)) = .true.
+            end do
+         end associate
+         do i = 1, size(sides, kind=ip)
+            if (by(i) == 0 .and. has_tied_face(sides(i)%slave) .and. has_tied_face(sides(i)%master)) by(i) = k
+         end do
+      end do
+      i = findloc(by > 0, .true., dim=1, kind=ip)
+      if (i == 0) return
+      text = pair_text(model, i)//': the tie '//model%ties(by(i))%name//' holds the same faces together, and how much of their '// &
+             'force is contact is not determined'
+      if (count(by > 0) > 1) text = text//'; so it is with '//to_text(count(by > 0, kind=ip) - 1)//' more pairs'
+      call report_warning(context%deck, context%slaves(i), 'W-TWICE', text, expected='the tie or the pair, not both', &
+                          keyword='CONTACT PAIR')
+
+   contains
+
+      pure logical function has_tied_face(faces) result(has)
+         integer(lp), intent(in) :: faces(:)
+         integer(ip) :: j, element
+
+         has = .false.
+         do j = 1, size(faces, kind=ip)
+            element = int((faces(j) - 1_lp)/MOST_SIDES, ip)
+            associate (nodes => face_nodes(model%mesh, element, int(faces(j) - int(element, lp)*MOST_SIDES, ip)))
+               has = all(is_tied(nodes(:2)))
+            end associate
+            if (has) return
+         end do
+      end function has_tied_face
+   end subroutine warn_of_tied_pairs
 
    !> `slave on master`
    pure function pair_text(model, i) result(text)

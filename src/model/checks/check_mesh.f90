@@ -197,24 +197,24 @@ contains
       type(build_context_t), intent(in) :: context
       logical :: lies_over(mesh%n_elements), is_hinge(mesh%n_nodes)
       integer(ip), allocatable :: found(:)
-      integer(ip), allocatable :: to(:), from(:)       ! corners before and behind the node in each element round it; 0: none
-      integer(ip) :: k, n, node
+      integer(ip), allocatable :: to(:), from(:), last(:)  ! corners after and before each node in elements, the last of them
+      integer(ip) :: e, k, n, side
 
-      associate (first => context%around%first)
-         n = maxval(first(2:mesh%n_nodes + 1) - first(:mesh%n_nodes))
-      end associate
-      allocate (to(n), from(n))
       lies_over = .false.
-      is_hinge = .false.
-      do node = 1, mesh%n_nodes
-         associate (around => context%around%list(context%around%first(node):context%around%first(node + 1) - 1))
-            n = size(around, kind=ip)
-            do k = 1, n
-               call find_corners(mesh, around(k), node, from(k), to(k))
-               if (to(k) > 0) lies_over(around(k)) = lies_over(around(k)) .or. any(to(:k - 1) == to(k))
-            end do
-            is_hinge(node) = count([(all(from(:n) /= to(k)), k=1, n)]) > 1
-         end associate
+      allocate (to(size(context%around%list)), from(size(context%around%list)))
+      last = context%around%first(:mesh%n_nodes) - 1
+      do e = 1, mesh%n_elements
+         n = side_count(mesh, e)
+         do side = 1, n
+            associate (node => mesh%nodes(side, e), end => mesh%nodes(merge(1_ip, side + 1, side == n), e))
+               do k = context%around%first(node), last(node)
+                  if (to(k) == end) lies_over(e) = .true.
+               end do
+               last(node) = last(node) + 1
+               to(last(node)) = end
+               from(last(node)) = mesh%nodes(merge(n, side - 1, side == 1), e)
+            end associate
+         end do
       end do
       found = pack([(k, k=1, mesh%n_elements)], lies_over)
       if (size(found) > 0) then
@@ -224,26 +224,16 @@ contains
                              expected='elements beside each other', keyword='ELEMENT')
          return
       end if
+      do n = 1, mesh%n_nodes
+         associate (first => context%around%first(n))
+            is_hinge(n) = count([(all(from(first:last(n)) /= to(k)), k=first, last(n))]) > 1
+         end associate
+      end do
       found = pack([(k, k=1, mesh%n_nodes)], is_hinge)
       if (size(found) > 0) call report_warning(context%deck, place_token(context%deck, context%nodes%place(found(1))), 'W-HINGE', &
                             'node '//ids_text(mesh%node_id(found))//' is all that elements on its sides have in common: they '// &
                             'hang together there as by a hinge', expected='elements that share edges; a node for each body, '// &
                             'and a *TIE or a *CONTACT PAIR, where two bodies touch', keyword='ELEMENT')
    end subroutine check_neighbours
-
-   !> The corners before and behind a corner of an element; 0 where the node is none.
-   pure subroutine find_corners(mesh, element, node, before, behind)
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: element, node
-      integer(ip), intent(out) :: before, behind
-      integer(ip) :: side
-
-      before = 0
-      behind = 0
-      do side = 1, side_count(mesh, element)
-         if (mesh%nodes(side, element) == node) behind = mesh%nodes(face_end(mesh, element, side), element)
-         if (mesh%nodes(face_end(mesh, element, side), element) == node) before = mesh%nodes(side, element)
-      end do
-   end subroutine find_corners
 
 end module atrito_check_mesh

@@ -13,10 +13,12 @@ module atrito_build_ties
    use atrito_model, only: model_t, tie_t, QUADRATURE_NODAL, QUADRATURE_MORTAR, SURFACE_SEGMENTS
    use atrito_growth, only: number_list_t, add_number, numbers_of
    use atrito_pairing, only: pair_surfaces
+   use atrito_plane_state, only: STATES
    use atrito_points, only: contact_points_t
    use atrito_refined_members, only: faces_of_deck
    use atrito_references, only: find_surface
    use atrito_strings, only: to_text
+   use atrito_turned_points, only: first_of_master
    implicit none (type, external)
    private
    public :: read_ties, check_ties, build_ties
@@ -288,17 +290,21 @@ contains
                        ' [L] at the most; ADJUST=NO leaves them where they are', keyword=KEYWORD)
    end subroutine adjust_nodes
 
-   !> Two rows for each point that is tied, along x and y.
+   !> Two rows for each point that is tied, along x and y. Where the places that they join are apart they join them as a rod does
+   !> (add_lever), but in bodies of revolution, which do not turn in their section.
    subroutine add_tie(context, i, points, tied_by)
       type(build_context_t), intent(inout) :: context
       integer(ip), intent(in) :: i
       type(contact_points_t), intent(in) :: points
       integer(ip), intent(inout) :: tied_by(:)         !< (n_nodes) tie whose slave has the node
       type(number_list_t) :: twice
+      real(wp), parameter :: NONE = 1.0e-9_wp          ! of the face
       real(wp), allocatable :: vectors(:, :)
       integer(ip) :: j, k, axis, group
+      logical :: may_turn
 
       group = context%model%bilateral%n_groups + 1
+      may_turn = all(STATES(context%model%mesh%state(1))%moves)
       do j = 1, points%n
          if (.not. is_near(points%gap(j), context%model%ties(i)%tolerance, points%length(j))) cycle
          if (tied_by(points%node(j)) > 0) call add_number(twice, context%model%mesh%node_id(points%node(j)))
@@ -307,6 +313,8 @@ contains
             do axis = 1, 2
                vectors = reshape([(0.0_wp, k=1, 2*(last - first + 1))], [2, last - first + 1])
                vectors(axis, :) = points%coefficient(first:last)
+               if (may_turn) call add_lever(context%model%mesh%x(:, points%entry(first:last)), first_of_master(points, j) - first, &
+                                            NONE*points%length(j), axis, vectors)
                call add_row(points%entry(first:last), vectors, 0.0_wp, 0.0_wp, points%weight(j), [ROW_TIE, group, i], &
                             context%model%bilateral)
             end do
@@ -316,5 +324,35 @@ contains
       if (twice%n > 0) call refuse(context, context%ties(i), 'node '//ids_text(numbers_of(twice))// &
                                    ' is a slave in two ties', 'each node in one slave; the other tie may have it as master')
    end subroutine add_tie
+
+   !> A row of a tie that no rigid motion of both bodies together strains, whose forces leave no moment.
+   !>
+   !> Its terms add up to the places x_s - x_m = d = sum_k c_k x_k, and a rotation w to w perp(d), perp(a) = (-a2, a1): by the
+   !> distance of the sides, and by that of chords that stand for one curve and do not match. The rotation of the master's nodes
+   !> about their mean is taken out:
+   !>
+   !>     w = sum_k perp(x_k - mean x) . u_k/sum_k |x_k - mean x|^2.
+   pure subroutine add_lever(x, n_slave, least, axis, vectors)
+      real(wp), intent(in) :: x(:, :)                  !< (2, entries) places of the nodes [L]
+      integer(ip), intent(in) :: n_slave               !< entries of the slave, before those of the master
+      real(wp), intent(in) :: least                    !< distance that is none [L]
+      integer(ip), intent(in) :: axis                  !< of the row
+      real(wp), intent(inout) :: vectors(:, :)         !< (2, entries)
+      real(wp) :: away(2, size(x, 2)), d(2)
+      integer(ip) :: k
+
+      do k = 1, size(x, 2, kind=ip)
+         away(:, k) = x(:, k) - x(:, size(x, 2))
+      end do
+      d = matmul(away, vectors(axis, :))
+      if (norm2(d) <= least) return
+      associate (of_master => away(:, n_slave + 1:))
+         of_master = of_master - spread(sum(of_master, dim=2)/size(of_master, 2), 2, size(of_master, 2))
+         if (norm2(of_master) <= least) return
+         vectors(:, n_slave + 1:) = vectors(:, n_slave + 1:) &
+                                    - (merge(-d(2), d(1), axis == 1)/norm2(of_master)**2) &
+                                    *reshape([-of_master(2, :), of_master(1, :)], [2, size(of_master, 2)], order=[2, 1])
+      end associate
+   end subroutine add_lever
 
 end module atrito_build_ties

@@ -41,6 +41,7 @@ module atrito_found_contact
       integer(ip), allocatable :: other(:)                   !< (faces) the party that it may touch; 0: none
       integer(ip), allocatable :: law(:)                     !< (faces) place of the interaction; 0: none is assigned
       logical, allocatable :: is_slave(:)                    !< (faces)
+      integer(ip) :: n_excluded = 0                          !< faces that look at another body and may not touch it
       integer(ip) :: n_partly = 0                            !< faces of slaves that find the other body in part only
    end type search_t
 
@@ -71,10 +72,10 @@ contains
       call make_pairs(rules, search, chains, context)
       if (search%n_partly > 0) call report_note(context%deck, rules%place, 'N-PARTLY', 'faces that look at another body with a '// &
                                                 'part only are left out: '//to_text(search%n_partly), keyword='CONTACT')
-      if (chains%n == 0) call report_warning(context%deck, rules%place, 'W-CONTACT', &
-                                             'no bodies that are included look at each other', &
-                                             expected='faces no farther apart than half their length, or than DISTANCE= [L]', &
-                                             keyword='CONTACT')
+      if (chains%n > 0) return
+      if (search%n_excluded > 0 .and. size(context%model%pairs) + size(context%model%ties) > 0) return
+      call report_warning(context%deck, rules%place, 'W-CONTACT', 'no bodies that are included look at each other', &
+                          expected='faces no farther apart than half their length, or than DISTANCE= [L]', keyword='CONTACT')
    end subroutine find_contact
 
    !> The bodies with their outlines, the rigid surfaces that are included, and the surfaces of rules to which each face belongs.
@@ -174,7 +175,10 @@ contains
          end if
          if (last_rule(rules%included, own, others) == 0) cycle
          if (seen(i)%rigid > 0) others = [ANY_BODY, others]
-         if (last_rule(rules%excluded, own, others) > 0) cycle
+         if (last_rule(rules%excluded, own, others) > 0) then
+            search%n_excluded = search%n_excluded + 1
+            cycle
+         end if
          rule = last_rule(rules%assigned, own, others)
          if (rule > 0) search%law(i) = rules%assigned%value%values(rule)
          search%other(i) = search%bodies%n + seen(i)%rigid

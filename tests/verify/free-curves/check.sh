@@ -72,6 +72,35 @@ pin rough 0 "-v digits=6 -v moment=0.1 -v nu=0.3"
 grep -q W-IDLE rough.err && complain "rough: W-IDLE"
 pin held 0 "-v digits=6 -v moment=0.1 -v hold=1"
 grep -q W-IDLE held.err && complain "held: W-IDLE"
+# The pin is a drawn line that moves with a reference node, or the hole is the end of a drawn slot: round sides as well.
+drawn() { # NAME CODE DIGITS ANGLE MOMENT SLOT OPTION ...
+   name=$1
+   code=$2
+   awk -v digits="$3" -v angle="$4" -v moment="$5" -v slot="$6" -f "$here/drawn.awk" </dev/null >"$name.inp"
+   shift 6
+   run "$code" "$name.inp" "$name" --digits 17 --quiet "$@"
+}
+drawn_turns() { # the same rotation at any angle and number of digits, as far as these tell
+   turn=$(column "$1/rigid.tab" ur)
+   near "$1 turns by" "$turn" "$(column drawn-0/rigid.tab ur)" "$(value "100*10^(1 - $digits)")"
+}
+for slot in 0 1; do
+   drawn drawn-$slot 0 17 0 0 $slot
+   for digits in 5 6 8 10; do
+      for angle in 0 57.3; do
+         for form in dense sparse; do
+            name=drawn-$slot-$digits-$angle-$form
+            drawn "$name" 0 $digits $angle 0 $slot --contact $form
+            grep -q 'W-IDLE.*free to rotate about' "$name.err" || complain "$name: the rotation is not told"
+            near "$name pressure" "$(most "$name")" "$(most drawn-$slot)" "$(value "1e4*10^(1 - $digits)*$(most drawn-$slot)")"
+            near "$name stays" "$(column "$name/nodes.tab" u1 | awk '{ if ($1*$1 > m*m) m = $1 } END { printf "%.17g", m }')" 0 0.01
+            [ $slot = 1 ] || drawn_turns "$name"
+         done
+         # in the slot it turns until the straight sides hold it
+         drawn "drawn-moment-$slot-$digits-$angle" $((4 - 4*slot)) $digits $angle 0.01 $slot
+      done
+   done
+done
 # A ring on a pin, with an overlap that friction sticks in, and nothing holds them: both together may turn and move, and do not.
 together() {
    awk '/^# columns:/ { for (i = 3; i <= NF; i++) place[$i] = i - 2; next } /^#/ { next }
@@ -117,6 +146,19 @@ for digits in 6 7 8 10 13; do
       awk -v digits=$digits -v angle=57.3 -v off=0.05 -v nu=$nu -f "$here/roller.awk" </dev/null >"$name.inp"
       run 0 "$name.inp" "$name" --digits 17 --quiet
       near "$name: points that carry" "$(column "$name/contact.tab" pressure | awk '$1 > 0 { n++ } END { print n + 0 }')" 2 0
+   done
+done
+# The same of two rollers between plates: their forces come through contact alone, and their places are known to the digits as well.
+for digits in 6 8 10 17; do
+   for angle in 0 30 57.3; do
+      for nu in 0 0.3; do
+         name=rollers-$digits-$angle-$nu
+         awk -v digits=$digits -v angle=$angle -v nu=$nu -f "$here/rollers.awk" </dev/null >"$name.inp"
+         run 0 "$name.inp" "$name" --digits 17 --quiet
+         grep -q 'W-IDLE' "$name.err" || complain "$name: the motion is not told"
+         near "$name moves along by" "$(awk -v t=$angle '!/^#/ { p = t*atan2(1, 1)/45; u = $5*cos(p) + $6*sin(p); if (u*u > m*m) m = u }
+            END { printf "%.17g", m }' "$name/nodes.tab")" 0 0.03
+      done
    done
 done
 # A block in a slot, whose friction holds 2 nu N = 60: a push of 50 it holds, and of one of 70 nothing but rounding, which makes the slot

@@ -90,6 +90,51 @@ for angle in 0. 57.3; do
    carry "under-block-$angle" 0.0025 "$slope" "$block" 'A-TOP, B-BOTTOM' 5 --set "angle=$angle"
 done
 
+# The side is held over a floor that moves, or by equations with a grip that moves it over a floor that does not: the same friction, in
+# the steps that move nothing as well.
+hold_side() { # NAME BLOCK FRICTION HOLD MOVED WAY ELASTIC OPTION ...
+   name=$1
+   way=$6
+   elastic=$7
+   deck "$(cat "$here/held.inp")" "BLOCK=$2" "FRICTION=$3" "HOLD=$4" "MOVED=$5" >"$name.inp"
+   shift 7
+   run 0 "$name.inp" "$name" --digits 17 --quiet --set "way=$way" "$@"
+   for at in '1 1 0 0' "2 4 10 0.1-$elastic" "3 1 -10 0.14-3*$elastic" "3 5 -10 0.3-3*$elastic" "4 1 -10 0.3-3*$elastic"; do
+      # shellcheck disable=SC2086
+      set -- $at
+      near "$name, step $1 increment $2: force" "$(frame "$name" shear_resultant "$1" "$2")" "$3" "$tolerance"
+      near "$name, step $1 increment $2: dissipation" "$(frame "$name" dissipation "$1" "$2")" "$(value "10*($4)")" "$tolerance"
+   done
+}
+block() { # TYPE
+   printf '%s' "*BLOCK, TYPE=$1, ELSET=B, NX=4, NY=2\\n0., 0.\\n<2*c>, <2*s>\\n<2*c-s>, <2*s+c>\\n<-s>, <c>"
+}
+# the same with coordinates of some digits
+rounded() { # ANGLE DIGITS
+   awk -v t="$1" -v d="$2" 'BEGIN { a = t*atan2(1, 1)/45; c = cos(a); s = sin(a); printf "*NODE"
+      for (j = 0; j <= 2; j++) for (i = 0; i <= 4; i++) printf "\\n%d, %." d "f, %." d "f", 5*j + i + 1, c*i/2 - s*j/2, s*i/2 + c*j/2
+      printf "\\n*ELEMENT, TYPE=CPE4, ELSET=B"
+      for (j = 0; j < 2; j++) for (i = 1; i <= 4; i++) printf "\\n%d, %d, %d, %d, %d", 4*j + i, 5*j + i, 5*j + i + 1, 5*j + i + 6, 5*j + i + 5
+      printf "\\n*NSET, NSET=B-BOTTOM\\n1, 2, 3, 4, 5\\n*SURFACE, NAME=B-BOTTOM\\n1, S1\\n2, S1\\n3, S1\\n4, S1\\n*SURFACE, NAME=B-TOP\\n5, S3\\n6, S3\\n7, S3\\n8, S3" }'
+}
+support='*TRANSFORM, NSET=B-BOTTOM\n<c>, <s>, 0., <-s>, <c>, 0.\n*BOUNDARY\nB-BOTTOM, 1'
+equation='*EQUATION\n2\nB-BOTTOM, 1, <c>, B-BOTTOM, 2, <s>'
+grip='*EQUATION\n4\nB-BOTTOM, 1, <c>, B-BOTTOM, 2, <s>, 2000, 1, <-c>, 2000, 2, <-s>'
+for angle in 0. 30. 57.3; do
+   tolerance=1e-9
+   for form in dense sparse; do
+      set -- --set "angle=$angle" --contact $form
+      hold_side "support-$angle-$form" "$(block CPE4)" "$exact" "$support" 1000 1. 0 "$@"
+      hold_side "equation-$angle-$form" "$(block CPE8)" "$exact" "$equation" 1000 1. 0 "$@"
+      hold_side "grip-$angle-$form" "$(block CPE4)" "$exact" "$grip" 2000 -1. 0 "$@"
+   done
+   hold_side "support-slope-$angle" "$(block CPE8)" "$slope" "$support" 1000 1. 0.0025 --set "angle=$angle"
+   for decimals in 4 6 9; do
+      tolerance=$(value "100*10^(-$decimals)")
+      hold_side "support-$angle-$decimals-decimals" "$(rounded $angle $decimals)" "$exact" "$support" 1000 1. 0 --set "angle=$angle"
+   done
+done
+
 # The law of the total slip goes back as it came: no work in a closed loop.
 deck "$(cat "$here/carried.inp")" 'FRICTION=*FRICTION, SLIP=TOTAL\n0.5' "OTHER=$floor" 'PAIR=B-BOTTOM, FLOOR' >total.inp
 run 0 total.inp total --digits 17 --quiet

@@ -26,12 +26,37 @@ sed 's/CPE8/CPE4/' disc.inp >linear.inp
 told linear 'touch at 3 points only' linear.inp --set F=30000
 silent linear-5 W-FEW-POINTS linear.inp --set F=30000 --set n=16
 
+# a fine disc on coarse ground: the finer slave takes what the ground cannot follow
+awk '/^\*SURFACE, NAME=FLOOR/ { print "*BLOCK, TYPE=CPE4, ELSET=GROUND, NX=<m>, NY=<m>\n0, -20\n20, -20\n20, 0\n0, 0\n" \
+      "*SOLID SECTION, ELSET=GROUND, MATERIAL=STEEL"; n = 4 }
+   n > 0 { n--; next }
+   { print }
+   /^\*PARAMETER/ { print "m = 6" }
+   /^\*BOUNDARY/ { print "GROUND-BOTTOM, 1, 2\nGROUND-LEFT, 1" }' linear.inp | sed 's/, FLOOR/, GROUND-TOP/' >ground.inp
+told ground 'over hardly 2 distances of the nodes of GROUND-TOP, which cannot follow the finer slave' ground.inp \
+   --set F=60000 --set n=16
+hertz=$(awk 'BEGIN { print sqrt(60000*105000/0.91/(10*atan2(0, -1))) }' </dev/null)
+below 'coarse ground: too large by more than' 0.2 "$(awk -v p="$(summary ground max_pressure)" "BEGIN { print p/$hertz - 1 }" </dev/null)"
+silent fine-ground W-FEW-POINTS ground.inp --set F=60000 --set n=16 --set m=40
+near 'fine ground' "$(summary fine-ground max_pressure)" "$hertz" "$(awk "BEGIN { print 0.05*$hertz }" </dev/null)"
+
 # a block that tips stands on one point of a straight side
 silent edge W-FEW-POINTS block.inp
 near 'on its edge' "$(awk '!/^#/ && $8 > 0' edge/contact.tab | wc -l)" 1 0
 
 told rings 'IN-RIGHT on OUT-LEFT: the pressure goes up and down from point to point' rings.inp
 silent alike W-ALTERNATES rings.inp --set n=19
+# rings alike: the faces of the master are straight where the side is curved, and the finer slave would follow them
+sed 's/^20000, 0.2/100, 0.3/; s/, QUADRATURE=NODAL//' rings.inp >polygon.inp
+told polygon 'the slave IN-RIGHT is 4 times as fine as the curved side OUT-LEFT, whose faces are straight' polygon.inp --set m=8
+lame=$(awk 'BEGIN { e = 100/0.91; mu = 3/7; print 0.03*e/(3*((9 + 2.89)/(9 - 2.89) - mu + (25 + 9)/(25 - 9) + mu)) }' </dev/null)
+all_near polygon polygon/contact.tab pressure "$lame" "$(awk "BEGIN { print 0.01*$lame }" </dev/null)"
+sed 's/^20000, 0.2/100, 0.3/' rings.inp >nodal.inp
+told nodal 'pressures on it follow the corners between those faces' nodal.inp --set m=8
+sed 's/^IN-RIGHT, OUT-LEFT/OUT-LEFT, IN-RIGHT/; s/SLAVE=IN-RIGHT, MASTER=OUT-LEFT/SLAVE=OUT-LEFT, MASTER=IN-RIGHT/' nodal.inp >coarse.inp
+told coarse 'W-COARSE-SLAVE' coarse.inp --set m=8
+! grep -q 'finer side as slave' coarse.err || complain 'the finer side is recommended on a polygon'
+
 told loose 'a pair that never closes: IN-RIGHT on OUT-LEFT' rings.inp --set gap=0.03 --set push=0.01
 silent nothing N-OPEN rings.inp --set gap=0.03
 sed 's/^IN-RIGHT, OUT-LEFT/&\nOUT-LEFT, IN-RIGHT/; /CLEARANCE/d' rings.inp >twice.inp
