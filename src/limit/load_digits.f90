@@ -50,10 +50,10 @@ contains
       do i = 1, rows%n
          j = data%line%point(i)
          if (j > data%rows%n - data%rows%n_bilateral) cycle
+         if (minval(abs(data%rows%normal(:, j))) <= ALONG_AXIS) cycle
          associate (nodes => data%rows%node(data%rows%first(j):data%rows%first(j + 1) - 1))
             allowed = allowed + abs(q(i))*maxval(turn(data%fem%bodies%of_node(nodes)))
          end associate
-         if (minval(abs(data%rows%normal(:, j))) <= ALONG_AXIS) cycle
          along = 0.0_wp
          do k = data%rows%first(j), data%rows%first(j + 1) - 1
             along = along + rate_of_entry()
