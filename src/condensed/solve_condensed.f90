@@ -198,10 +198,12 @@ contains
       type(status_t) :: fine
 
       ! nothing drives a body, and nothing overlaps
-      if (all(qp%h == 0.0_wp) .and. asks_no_force(problem%line, qp, qp%g0)) then
+      if (serves_as_start(problem%last, CONTACT_DENSE)) nothing = problem%last
+      if (all(qp%h == 0.0_wp) .and. asks_no_force(problem%line, qp, qp%g0, nothing)) then
          call let_rest(problem%line, qp, qp%g0, solution)
          return
       end if
+      nothing = contact_solution_t()
       if (serves_as_start(problem%last, CONTACT_DENSE) .and. controls%method == METHOD_ANDERSON .and. .not. controls%is_rung) then
          solution = problem%last
          if (has_position(problem, qp%h)) solution%state%a = 0.0_wp

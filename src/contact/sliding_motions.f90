@@ -47,7 +47,7 @@ module atrito_sliding_motions
    integer(ip), parameter :: LEAST_CHORDS = 3_ip    !< of a round side: two bisectors always meet
    real(wp), parameter :: FLAT = 1.0e-3_wp          !< sag of a face over its length, of one that is straight
    real(wp), parameter :: EXACT = 1.0e-13_wp        !< digit error over size of nodes that are not rounded to digits
-   real(wp), parameter :: CONCENTRIC = 1.01_wp     !< distance of centres of a pin and its hole, in radii of the smaller: not round
+   real(wp), parameter :: CONCENTRIC = 0.99_wp     !< distance of centres of a pin and its hole, in radii of the smaller: not round
 
 contains
 

@@ -5,7 +5,7 @@
 !> but for points with small forces, the work W = h'v of the loads is compared with what the digits can make of it: of the forces on
 !> body that turns by w, of the forces of the points that hold, which have places as well and whose normals are known to some g over
 !> their lengths l_j, and of those on loaded faces, since the ends of a face of length l_f say how much of a pressure acts and
-!> whereto (|w| at a point is the larger one of its two bodies; all |q_j| |w| are at most 2.5e-3 of the works of the loads):
+!> whereto (|w| at a point is the larger one of its two bodies):
 !>
 !>    |W| <= 5 g (sum over bodies of |w| sum |f| + sum over points of |q_j| (|w| + |v_T,j|/l_j)
 !>                + sum over loaded faces of |f| |v|/l_f)
@@ -35,12 +35,11 @@ contains
       type(motion_rows_t), intent(in) :: rows       !< G, and the work of the loads on each motion
       real(wp), intent(in) :: v(:)                  !< (k) its amplitudes
       real(wp), intent(in) :: q(:)                  !< (m) forces of the rows, 0: of those that do not hold [F]
-      real(wp) :: allowed, arms, most, along, unit, sizes(rows%n_columns), turn(0:data%fem%bodies%n)
+      real(wp) :: allowed, most, along, sizes(rows%n_columns), turn(0:data%fem%bodies%n)
       integer(ip) :: first(data%fem%bodies%n + 1), b, i, j, k
 
       first = first_motions(data%fem%bodies)
       allowed = 0.0_wp
-      arms = 0.0_wp
       turn(0) = 0.0_wp
       do b = 1, data%fem%bodies%n
          associate (body => data%fem%bodies%list(b))
@@ -51,10 +50,10 @@ contains
       do i = 1, rows%n
          j = data%line%point(i)
          if (j > data%rows%n - data%rows%n_bilateral) cycle
-         associate (nodes => data%rows%node(data%rows%first(j):data%rows%first(j + 1) - 1))
-            arms = arms + abs(q(i))*maxval(turn(data%fem%bodies%of_node(nodes)))
-         end associate
          if (minval(abs(data%rows%normal(:, j))) <= ALONG_AXIS) cycle
+         associate (nodes => data%rows%node(data%rows%first(j):data%rows%first(j + 1) - 1))
+            allowed = allowed + abs(q(i))*maxval(turn(data%fem%bodies%of_node(nodes)))
+         end associate
          along = 0.0_wp
          do k = data%rows%first(j), data%rows%first(j + 1) - 1
             along = along + rate_of_entry()
@@ -71,10 +70,7 @@ contains
             most = most + MOST_PART*maxval([0.0_wp, own])*sum(abs(v(first(b):first(b + 1) - 1)))
          end associate
       end do
-      unit = DIGIT_ERRORS*contact_digit_error(data%fem%mesh%x, data%rows)
-      ! forces that hold many bodies add up to far more than the loads that they pass on
-      arms = min(unit*arms, MOST_PART*dot_product(abs(v), rows%work_size))
-      allowed = min(unit*allowed + arms, most)
+      allowed = min(DIGIT_ERRORS*contact_digit_error(data%fem%mesh%x, data%rows)*allowed, most)
       is_within_digits = abs(dot_product(v, rows%work)) <= allowed
 
    contains

@@ -104,7 +104,7 @@ contains
 
       before = solution
       call begin_solution(system, line, shape, multipliers, solution)
-      if (all(system%load == 0.0_wp) .and. asks_no_force(line, shape, system%g0)) then
+      if (all(system%load == 0.0_wp) .and. asks_no_force(line, shape, system%g0, before)) then
          call let_rest(line, shape, system%g0, solution)
          x = spread(0.0_wp, 1, system%n)
          if (allocated(before%multipliers)) allocate (solution%multipliers)

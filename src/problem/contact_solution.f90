@@ -63,15 +63,20 @@ contains
 
    !> Whether no contact force is asked for: without any nothing overlaps, g0 <= 0 at the points, what bilateral rows
    !> prescribe is so, g0 = 0, and no known overlap makes a pressure. The solution is q = 0 then, and no problem is
-   !> solved for it (let_rest).
-   pure logical function asks_no_force(line, problem, g0)
+   !> solved for it (let_rest). Not so where friction may hold what the increment before has pressed together, as a taper that
+   !> locks itself when its load is taken off.
+   pure logical function asks_no_force(line, problem, g0, before)
       type(contact_line_t), intent(in) :: line
       type(bound_qp_t), intent(in) :: problem         !< of which the shape counts
       real(wp), intent(in) :: g0(:)                   !< (m) overlaps and slips without contact forces [L]
+      type(contact_solution_t), intent(in) :: before  !< of the increment before; nothing allocated: there is none
       type(box_bounds_t) :: bounds
       type(box_state_t) :: state
 
       asks_no_force = all(g0(:problem%n_normal) <= 0.0_wp)
+      if (line%has_friction .and. allocated(before%p)) then
+         asks_no_force = asks_no_force .and. .not. any(before%p(:line%n - line%n_bilateral) > 0.0_wp)
+      end if
       if (.not. asks_no_force) return
       call normal_bounds(line, problem, bounds, state)
       associate (n => problem%n_normal)

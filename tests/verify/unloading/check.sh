@@ -19,5 +19,11 @@ for form in dense sparse; do
    near "$form: pressed again" "$(at "$form" history normal_resultant 6 4)" 10 1e-11
    near "$form: friction of the block pressed again" "$(at "$form" history shear_resultant 6 4)" 0 1e-11
    near "$form: dissipation after the drag" "$(at "$form" history dissipation 6 4)" "$(at "$form" history dissipation 5 4)" 1e-12
+   # a taper locks itself where friction is more than its slope: the load off, shear is that part of the pressure; else it lets go
+   run 0 "$here/taper.inp" "taper-$form" --digits 17 --contact $form --quiet
+   near "$form: shear over pressure of the taper" "$(value "$(at "taper-$form" history shear_resultant 2 4)/$(at "taper-$form" history normal_resultant 2 4)")" \
+      0.17632698070846498 1e-8
+   run 0 "$here/taper.inp" "smooth-$form" --digits 17 --contact $form --quiet --set nu=0.15
+   near "$form: the smoother taper lets go" "$(at "smooth-$form" history normal_resultant 2 4)" 0 0
 done
 finish
