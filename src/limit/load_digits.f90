@@ -70,7 +70,7 @@ contains
             most = most + MOST_PART*maxval([0.0_wp, own])*sum(abs(v(first(b):first(b + 1) - 1)))
          end associate
       end do
-      allowed = min(DIGIT_ERRORS*contact_digit_error(data%fem%mesh%x, data%rows)*allowed, most)
+      allowed = min(DIGIT_ERRORS*contact_digit_error(data%fem%mesh%x, data%fem%mesh%digit_error, data%rows)*allowed, most)
       is_within_digits = abs(dot_product(v, rows%work)) <= allowed
 
    contains

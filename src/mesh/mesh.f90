@@ -19,6 +19,7 @@ module atrito_mesh
       integer(ip) :: n_nodes = 0, n_elements = 0    !< in use; the arrays may be longer
       integer(ip), allocatable :: node_id(:)        !< the user's numbers
       real(wp), allocatable :: x(:, :)              !< coordinates [L], (2, n_nodes)
+      real(wp) :: digit_error = 0.0_wp              !< of places that the deck gives, where nodes are made of them [L]; else 0
       integer(ip), allocatable :: element_id(:)     !< the user's numbers
       integer(ip), allocatable :: shape(:)          !< place in SHAPES: how many nodes they have
       integer(ip), allocatable :: state(:)          !< place in STATES

@@ -15,7 +15,7 @@ module atrito_build_model
    use atrito_build_lines, only: is_line_card, read_lines, read_curves, turn_elements
    use atrito_build_loads, only: build_loads
    use atrito_build_materials, only: build_materials
-   use atrito_build_nodes, only: read_node_card, read_fill_card
+   use atrito_build_nodes, only: note_digits, read_node_card, read_fill_card
    use atrito_build_paths, only: place_paths
    use atrito_build_pretension, only: build_pretension, add_pretension_rows
    use atrito_build_requests, only: build_requests
@@ -170,6 +170,7 @@ contains
       if (.not. context%has_room) return               ! an error, and others would follow from what was not made
       call trim_mesh(model%mesh)
       context%around = list_node_elements(model%mesh)
+      call note_digits(levels > 0 .or. shape > 0 .or. present(trees), context)
       call read_curves(context)
       call read_temperatures(context)
       call read_node_thickness(context)

@@ -92,6 +92,7 @@ contains
       end do
       context%deck_elements = coarse%element_map
       call keep_places(coarse, context%model%mesh, context)
+      context%model%mesh%digit_error = coarse%digit_error
       context%around = list_node_elements(context%model%mesh)
    end subroutine follow_mesh
 

@@ -82,9 +82,9 @@ contains
       integer(ip) :: i, b
 
       motions%doubt = spread(0.0_wp, 1, motions%n)
-      digit_error(0) = contact_digit_error(fem%mesh%x, rows)
+      digit_error(0) = contact_digit_error(fem%mesh%x, fem%mesh%digit_error, rows)
       do b = 1, fem%bodies%n
-         digit_error(b) = max(digit_error(0), contact_digit_error(fem%mesh%x(:, fem%bodies%list(b)%nodes), rows))
+         digit_error(b) = max(digit_error(0), contact_digit_error(fem%mesh%x(:, fem%bodies%list(b)%nodes), 0.0_wp, rows))
       end do
       if (.not. any(digit_error > 0.0_wp)) return
       do i = 1, motions%n
@@ -98,14 +98,15 @@ contains
    end subroutine note_digits
 
    !> Half a unit of the last digit of coordinates [L]; 0: they are not rounded, or there is no contact.
-   pure real(wp) function contact_digit_error(x, rows) result(digit_error)
+   pure real(wp) function contact_digit_error(x, given, rows) result(digit_error)
       real(wp), intent(in) :: x(:, :)               !< (2, nodes) all of the mesh or those of a body [L]
+      real(wp), intent(in) :: given                 !< of places that they are made of; 0: not known [L]
       type(contact_rows_t), intent(in) :: rows      !< lengths of the points
 
       digit_error = 0.0_wp
       associate (n => rows%n - rows%n_bilateral)
          if (n == 0) return
-         digit_error = printed_digit_error(x)
+         digit_error = max(printed_digit_error(x), given)
          if (digit_error <= EXACT*maxval(abs(x))) digit_error = 0.0_wp
          if (any(rows%reach(:n) < LATTICE*digit_error)) digit_error = 0.0_wp
       end associate

@@ -304,7 +304,7 @@ contains
       if (.not. any(bilateral%kind(:bilateral%n) == ROW_SUPPORT)) return
       off = 0.0_wp
       have = have_known_slip(rubs, points, fem, bilateral)
-      digit_error = printed_digit_error(fem%mesh%x)
+      digit_error = max(printed_digit_error(fem%mesh%x), fem%mesh%digit_error)
       do i = 1, fem%bodies%n
          if (fem%bodies%list(i)%is_rigid .or. have(i)) cycle
          call find_line(fem, bilateral, i, digit_error, off, across, ends)

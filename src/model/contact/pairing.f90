@@ -92,7 +92,7 @@ contains
       allocate (points(size(slaves)), masters(size(model%surfaces)))
       if (present(chords)) allocate (chords(size(slaves)))
       if (size(points) == 0) return
-      digit_error = printed_digit_error(model%mesh%x)
+      digit_error = max(printed_digit_error(model%mesh%x), model%mesh%digit_error)
       if (digit_error <= EPS_MACH*maxval(abs(model%mesh%x))) digit_error = 0.0_wp
       thickness = model%sections(model%section_of)%thickness
       is_master = .false.

@@ -15,6 +15,7 @@ module atrito_build_block
    use atrito_model_memory, only: fits_memory
    use atrito_growth, only: number_list_t, add_numbers, numbers_of
    use atrito_sets, only: grow_set
+   use atrito_sliding_motions, only: printed_digit_error
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
@@ -37,6 +38,7 @@ contains
       call option_text(context%deck, context%deck%cards(i_card), 'ELSET', name, named)
       call read_block_spec(context%deck, context%deck%cards(i_card), spec, ok)
       ok = ok .and. named
+      if (ok) context%model%mesh%digit_error = max(context%model%mesh%digit_error, printed_digit_error(spec%map%corners))
       n_copies = product(int(spec%copies%n, lp))
       if (ok) ok = fits_memory(context%deck%cards(i_card)%place, context, count_nodes(spec), product(int(spec%n, lp))* &
                                n_copies*elements_of_square(spec%shape), 'BLOCK', spec%shape, n_copies)

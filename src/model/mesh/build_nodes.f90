@@ -14,10 +14,11 @@ module atrito_build_nodes
    use atrito_references, only: get_id, find_nodes, find_one_node
    use atrito_ranges, only: ranges_t, add_to_ranges => add_numbers
    use atrito_sets, only: grow_set, set_count
+   use atrito_sliding_motions, only: printed_digit_error
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: read_node_card, read_fill_card, place_node, put_node_set
+   public :: read_node_card, read_fill_card, place_node, put_node_set, note_digits
 
    character(len=*), parameter :: WHAT_STEP = 'increment of the numbers, an integer'
 
@@ -27,6 +28,20 @@ module atrito_build_nodes
    end interface put_node_set
 
 contains
+
+   !> To what the places are known that the deck gives, where other nodes are made of them: those have more digits.
+   subroutine note_digits(is_refined, context)
+      logical, intent(in) :: is_refined                !< nodes of a finer mesh will be made
+      type(build_context_t), intent(inout) :: context  !< with all nodes; digit_error of its mesh is set
+      integer(ip), allocatable :: given(:)
+      integer(ip) :: i
+
+      associate (mesh => context%model%mesh)
+         given = pack([(i, i=1, mesh%n_nodes)], context%nodes%place(:mesh%n_nodes) > 0)
+         if (size(given) == 0 .or. (size(given) == mesh%n_nodes .and. .not. is_refined)) return
+         mesh%digit_error = max(mesh%digit_error, printed_digit_error(mesh%x(:, given)))
+      end associate
+   end subroutine note_digits
 
    !> *NODE: number, x, y[, z].
    subroutine read_node_card(i_card, context)

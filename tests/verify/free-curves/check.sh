@@ -175,4 +175,22 @@ for digits in 4 5 6 8 10 17; do
       done
    done
 done
+# A block of generated nodes on an inclined line: those between the given corners have more digits, and would say that the pressure
+# across the side of the block drives it along the line. A push along it does.
+for digits in 4 6 12 17; do
+   for angle in 17.3 30; do
+      for n in 3 4 5 7; do
+         for element in CPE4 CPE6 CPE8; do
+            name=incline-$digits-$angle-$n-$element
+            awk -v digits=$digits -v angle=$angle -v n=$n -v element=$element -v push=0 -f "$here/incline.awk" </dev/null >"$name.inp"
+            run 0 "$name.inp" "$name" --digits 17 --quiet
+            grep -q 'W-IDLE' "$name.err" || complain "$name: the motion is not told"
+            near "$name is pressed by" "$(summary "$name" normal_resultant)" 2.8 "$(value "10^(1 - $digits) + 1e-12")"
+         done
+      done
+      awk -v digits=$digits -v angle=$angle -v n=4 -v element=CPE8 -v push=0.05 -f "$here/incline.awk" </dev/null >pushed.inp
+      run 4 pushed.inp pushed --quiet
+      run 0 "incline-$digits-$angle-4-CPE8.inp" finer --refine 1 --quiet
+   done
+done
 finish
