@@ -12,8 +12,8 @@
 !>       let_out                    not solved, and a motion is idle: out of a thin wedge that friction might hold
 !>
 !> A solution counts where the outer loop has converged and the final check, which knows nothing of how it was found, holds
-!> (is_solved). All attempts begin from the same results (begin_results) and loads (put_back_loads), so an attempt that fails leaves no trace
-!> but its time.
+!> (is_solved). All attempts begin from the same results (begin_results) and loads (put_back_loads), so an attempt that fails leaves
+!> no trace but its time.
 !>
 !> Two steps can find that the loads hang on the last digits of the deck: a roller that would turn for a moment that only rounding
 !> makes. Then these digits are taken out of the loads and the form is solved again, MOST_CHANGES times at most (`again`).

@@ -87,7 +87,7 @@ module atrito_scene_data
       logical :: may_cut = .false.                          !< without a solution a shorter increment is tried
       logical :: asks_for_bases = .false.                   !< the step begins, or the increment before has changed its loads
       real(wp), allocatable :: released(:, :)               !< (2, n_nodes) of supports that the step does not have; they fade [F]
-      real(wp), allocatable :: given(:, :)                  !< f before something was taken out of it [F]; not allocated: nothing was
+      real(wp), allocatable :: given(:, :)                  !< f before a part was taken out of it [F]; not allocated: none was
       type(had_t) :: had                                    !< the largest so far
       type(line_certificate_t), allocatable :: certificate  !< of the flexibility that is there
       real(wp), pointer :: before(:, :) => null()           !< (2, n_nodes) displacements of the increment before [L]

@@ -81,6 +81,7 @@ contains
       call add_to(digest, mesh%state(:mesh%n_elements))
       call add_to(digest, mesh%nodes(:, :mesh%n_elements))
       if (allocated(mesh%thickness)) call add_to(digest, mesh%thickness)
+      call add_to(digest, mesh%digit_error)
    end function digest_of_mesh
 
    pure function digest_of_materials(model) result(digest)

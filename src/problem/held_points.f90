@@ -48,7 +48,7 @@ contains
             associate (nodes => points(i)%entry(points(i)%first(j):points(i)%first(j + 1) - 1), n => points(i)%normal(:, j), &
                        row => points(i)%coefficient(points(i)%first(j):points(i)%first(j + 1) - 1), &
                        doubt => max(points(i)%doubt(j), SAME))
-               associate (main => pack(nodes, .not. is_little(row)))
+               associate (main => pack(nodes,.not. is_little(row)))
                   d = common_support(support(:, main), is_fixed(main))
                end associate
                if (.not. norm2(d) > 0.0_wp) cycle

@@ -47,8 +47,9 @@ contains
    !> The sum goes over the elements, each with its own stiffness, not over the factored or condensed matrices: what went wrong in
    !> these, in the numbering or in the points shows here. A residual passes when it is below FORCE_TOLERANCE of the largest nodal
    !> force; where it is not, it may still be round-off of large displacements of a stiff body, ROUND_OFFS eps sum |K||u_e|, or of
-   !> a body that moves without strain, which is computed only then, since it costs as much as the check. Parts of a scene whose forces are small beside the largest are
-   !> asked by a measure of their own (weak_parts_hold): a light body must not hide behind a heavy one.
+   !> a body that moves without strain, which is computed only then, since it costs as much as the check. Parts of a scene whose
+   !> forces are small beside the largest are asked by a measure of their own (weak_parts_hold): a light body must not hide behind
+   !> a heavy one.
    subroutine check_equilibrium(fem, u, f, contact, held, reaction, equilibrium, sizes, thermal)
       type(fem_t), intent(in) :: fem            !< whole scene
       real(wp), intent(in) :: u(:, :)           !< u_e, without rigid motions, (2, n_nodes) [L]

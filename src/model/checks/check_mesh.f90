@@ -224,10 +224,11 @@ contains
          return
       end if
       found = pack([(k, k=1, mesh%n_nodes)], is_hinge)
-      if (size(found) > 0) call report_warning(context%deck, place_token(context%deck, context%nodes%place(found(1))), 'W-HINGE', &
-                            'node '//ids_text(mesh%node_id(found))//' is all that elements on its sides have in common: they '// &
-                            'hang together there as by a hinge', expected='elements that share edges; a node for each body, '// &
-                            'and a *TIE or a *CONTACT PAIR, where two bodies touch', keyword='ELEMENT')
+      if (size(found) == 0) return
+      call report_warning(context%deck, place_token(context%deck, context%nodes%place(found(1))), 'W-HINGE', &
+                          'node '//ids_text(mesh%node_id(found))//' is all that elements on its sides have in common: they '// &
+                          'hang together there as by a hinge', expected='elements that share edges; a node for each body, '// &
+                          'and a *TIE or a *CONTACT PAIR, where two bodies touch', keyword='ELEMENT')
 
    contains
 

@@ -55,7 +55,7 @@ contains
             if (current == 0) cycle
             associate (deck => context%deck, material => context%model%materials(current))
                if (current == dense .and. deck%cards(i)%ok) call report_error(deck, deck%cards(i)%place, 'E-TWICE', 'material '// &
-                                       material%name//' has two *DENSITY', expected='one *DENSITY a material', keyword='DENSITY')
+                                          material%name//' has two *DENSITY', expected='one *DENSITY a material', keyword='DENSITY')
                dense = current
                call read_density_card(deck, deck%cards(i), material)
             end associate
