@@ -69,7 +69,7 @@ contains
    contains
 
       elemental logical function is_equation(row)
-         integer(ip), intent(in) :: row               !< 0: none
+         integer(ip), intent(in) :: row               !< of the bilateral ones; 0: none
 
          is_equation = .false.
          if (row > 0) is_equation = bilateral%kind(row) == ROW_EQUATION
