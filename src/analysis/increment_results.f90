@@ -3,6 +3,7 @@
 module atrito_increment_results
    use atrito_body_sums, only: sum_bodies
    use atrito_body_motions, only: add_rigid_motions
+   use atrito_assembly, only: fem_t
    use atrito_contact_rows, only: bodies_of_row
    use atrito_contact_scales, only: force_round_off, had_t, widen, NONE_OF_HAD
    use atrito_contact_solution, only: contact_solution_t
@@ -14,6 +15,7 @@ module atrito_increment_results
    use atrito_kinds, only: ip, wp
    use atrito_linear_limits, only: find_large
    use atrito_mesh, only: is_revolved
+   use atrito_plane_state, only: IS_TAPERED
    use atrito_recovery, only: recover_contact, recover_stress, estimate_error
    use atrito_results, only: results_t, has_forces
    use atrito_row_entries, only: first_motions
@@ -115,7 +117,6 @@ contains
             stiffness(i) = section%thickness*merge(section%stiffness(1, 1), section%young, section%is_orthotropic)
          end associate
       end do
-      if (allocated(data%fem%mesh%thickness)) stiffness = stiffness*minval(data%fem%mesh%thickness)
       loads = sum(abs(data%f))
       if (allocated(data%thermal)) loads = loads + sum(abs(data%thermal))
       force = min(largest_forces(data, solution), loads)
@@ -124,13 +125,36 @@ contains
          associate (body => data%fem%bodies%list(b))
             if (body%is_rigid) cycle
             if (allocated(data%thermal)) force(b) = max(force(b), maxval(abs(data%thermal(:, body%nodes))))
-            motion(b) = force(b)/minval(stiffness(data%fem%section_of(body%elements)))
+            motion(b) = force(b)/least_stiffness(data%fem, body%elements, stiffness)
          end associate
       end do
       where (data%fem%bodies%list%is_rigid) motion = maxval(motion)
       had = data%had
       call widen(had, motion, 0.0_wp*motion)
    end function had_by_forces
+
+   !> The least E times thickness [F/L] of some elements; that of tapered ones by their nodes.
+   pure real(wp) function least_stiffness(fem, elements, stiffness) result(least)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: elements(:)                !< places in the mesh
+      real(wp), intent(in) :: stiffness(:)                  !< of the sections; of tapered elements E alone
+      integer(ip) :: i
+
+      least = minval(stiffness(fem%section_of(elements)))
+      if (.not. allocated(fem%mesh%thickness)) return
+      least = huge(1.0_wp)
+      do i = 1, size(elements, kind=ip)
+         associate (e => elements(i), mesh => fem%mesh)
+            associate (own => stiffness(fem%section_of(e)))
+               if (IS_TAPERED(mesh%state(e))) then
+                  least = min(least, own*minval(mesh%thickness(mesh%nodes(:mesh%shape(e), e))))
+               else
+                  least = min(least, own)
+               end if
+            end associate
+         end associate
+      end do
+   end function least_stiffness
 
    !> The force of an unknown, and the stress of its point with it.
    pure subroutine clear_force(data, i, solution)

@@ -38,7 +38,7 @@ contains
       call option_text(context%deck, context%deck%cards(i_card), 'ELSET', name, named)
       call read_block_spec(context%deck, context%deck%cards(i_card), spec, ok)
       ok = ok .and. named
-      if (ok) context%model%mesh%digit_error = max(context%model%mesh%digit_error, printed_digit_error(spec%map%corners))
+      if (ok) call note_corners(spec%map%corners, context%model%mesh%digit_error)
       n_copies = product(int(spec%copies%n, lp))
       if (ok) ok = fits_memory(context%deck%cards(i_card)%place, context, count_nodes(spec), product(int(spec%n, lp))* &
                                n_copies*elements_of_square(spec%shape), 'BLOCK', spec%shape, n_copies)
@@ -61,6 +61,18 @@ contains
          end do
       end if
    end subroutine read_block_card
+
+   !> To what the corners are known, and so the nodes between them. With fewer than six digits they are meant as they are: a slope of
+   !> two units of the fourth one is a wedge.
+   pure subroutine note_corners(corners, digit_error)
+      real(wp), intent(in) :: corners(:, :)            !< (2, 4) [L]
+      real(wp), intent(inout) :: digit_error           !< the largest so far [L]
+      real(wp), parameter :: SIX_DIGITS = 5.0e-6_wp
+      real(wp) :: own
+
+      own = printed_digit_error(corners)
+      if (own <= SIX_DIGITS*maxval(abs(corners))) digit_error = max(digit_error, own)
+   end subroutine note_corners
 
    !> One of the copies: its nodes, its node sets, and the block that the context keeps.
    subroutine place_copy(i_card, spec, name, i, j, context, ok)

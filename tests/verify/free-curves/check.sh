@@ -177,7 +177,7 @@ for digits in 4 5 6 8 10 17; do
 done
 # A block of generated nodes on an inclined line: those between the given corners have more digits, and would say that the pressure
 # across the side of the block drives it along the line. A push along it does.
-for digits in 4 6 12 17; do
+for digits in 6 8 12 17; do
    for angle in 17.3 30; do
       for n in 3 4 5 7; do
          for element in CPE4 CPE6 CPE8; do
