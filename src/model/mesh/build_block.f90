@@ -62,8 +62,8 @@ contains
       end if
    end subroutine read_block_card
 
-   !> To what the corners are known, and so the nodes between them. With fewer than six digits they are meant as they are: a slope of
-   !> two units of the fourth one is a wedge.
+   !> To what the corners are known, and so the nodes between them. With fewer than six digits they are meant as they are: a slope
+   !> of two units of the fourth one is a wedge.
    pure subroutine note_corners(corners, digit_error)
       real(wp), intent(in) :: corners(:, :)            !< (2, 4) [L]
       real(wp), intent(inout) :: digit_error           !< the largest so far [L]
