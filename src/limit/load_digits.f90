@@ -3,7 +3,7 @@
 !> A roller on one node of its rim, loaded through its centre, stands: nothing but rounding of coordinates, by some units g of their
 !> last digit, makes a moment about that node, which would turn it onto the next one. So where a motion v of the bodies were idle
 !> but for points with small forces, the work W = h'v of the loads is compared with what the digits can make of it: of the forces on
-!> body that turns by w, of the forces of the points that hold, which have places as well and whose normals are known to some g over
+!> a body that turns by w, of those of the points that hold, which have places as well and whose normals are known to some g over
 !> their lengths l_j, and of those on loaded faces, since the ends of a face of length l_f say how much of a pressure acts and
 !> whereto (|w| at a point is the larger one of its two bodies):
 !>

@@ -161,48 +161,31 @@ contains
       integer(ip), intent(in) :: i                           !< the pair
       type(few_points_t), intent(in) :: few
       integer(ip), intent(in) :: n                           !< pairs of the kind
-      character(len=:), allocatable :: error, text
+      character(len=:), allocatable :: error, place, text
       integer(ip) :: degree
 
-      if (few%of_master) then
-         call tell_few_faces(model, pair, i, few, n)
-         return
-      end if
-      ! the largest errors of Hertz's pressure that were seen with so many points
-      degree = degree_of_slave(model, i)
-      error = '10 %'
-      if (few%n <= 3) error = trim(merge('half of it', '15 %      ', degree == 2))
-      if (few%n == 1) error = 'more than half of it'
       associate (x => model%points(i)%x(:, few%point), node => model%mesh%node_id(model%points(i)%node(few%point)))
-         text = pair%slave//' on '//pair%master//': sides that curve apart touch at '//to_text(few%n) &
-                //trim(merge(' point ', ' points', few%n == 1))//' only, round node '//to_text(node)//' ('//to_text(x(1), 5)//', ' &
-                //to_text(x(2), 5)//'); the largest pressure may be off by '//error//'. Faces there of 1/' &
-                //to_text((ENOUGH(degree) + few%n)/few%n)//' of their length bring enough points'
+         place = 'round node '//to_text(node)//' ('//to_text(x(1), 5)//', '//to_text(x(2), 5)//')'
       end associate
-      if (n > 1) text = text//'; so do they in '//to_text(n - 1)//' more pairs'
-      call add_warning('W-FEW-POINTS', text)
-   end subroutine tell_few_points
-
-   !> The same of a zone that too few faces of the master face.
-   subroutine tell_few_faces(model, pair, i, few, n)
-      type(model_t), intent(in) :: model
-      type(pair_scene_t), intent(in) :: pair
-      integer(ip), intent(in) :: i                           !< the pair
-      type(few_points_t), intent(in) :: few
-      integer(ip), intent(in) :: n                           !< pairs of the kind
-      character(len=:), allocatable :: text
-
-      associate (x => model%points(i)%x(:, few%point), node => model%mesh%node_id(model%points(i)%node(few%point)))
-         text = pair%slave//' on '//pair%master//': sides that curve apart touch round node '//to_text(node)//' ('// &
-                to_text(x(1), 5)//', '//to_text(x(2), 5)//') over hardly '//to_text(few%n)// &
-                trim(merge(' distance ', ' distances', few%n == 1))//' of the nodes of '//pair%master// &
-                ', which cannot follow the finer slave; the largest pressure may be '// &
+      text = pair%slave//' on '//pair%master//': sides that curve apart touch '
+      if (few%of_master) then
+         text = text//place//' over hardly '//to_text(few%n)//trim(merge(' distance ', ' distances', few%n == 1))// &
+                ' of the nodes of '//pair%master//', which cannot follow the finer slave; the largest pressure may be '// &
                 trim(merge('several times too large', 'half too large         ', few%n == 1))//'. Faces of '//pair%master// &
                 ' of 1/'//to_text(merge(5_ip, (4 + few%n)/few%n, few%n == 1))//' of their length help, or that side as slave'
-      end associate
+      else
+         ! the largest errors of Hertz's pressure that were seen with so many points
+         degree = degree_of_slave(model, i)
+         error = '10 %'
+         if (few%n <= 3) error = trim(merge('half of it', '15 %      ', degree == 2))
+         if (few%n == 1) error = 'more than half of it'
+         text = text//'at '//to_text(few%n)//trim(merge(' point ', ' points', few%n == 1))//' only, '//place// &
+                '; the largest pressure may be off by '//error//'. Faces there of 1/'// &
+                to_text((ENOUGH(degree) + few%n)/few%n)//' of their length bring enough points'
+      end if
       if (n > 1) text = text//'; so it is in '//to_text(n - 1)//' more pairs'
       call add_warning('W-FEW-POINTS', text)
-   end subroutine tell_few_faces
+   end subroutine tell_few_points
 
    subroutine tell_alternation(pair, points, found, n)
       type(pair_scene_t), intent(in) :: pair
