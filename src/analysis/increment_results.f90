@@ -16,6 +16,7 @@ module atrito_increment_results
    use atrito_linear_limits, only: find_large
    use atrito_mesh, only: is_revolved
    use atrito_plane_state, only: IS_TAPERED
+   use atrito_range, only: largest_at
    use atrito_recovery, only: recover_contact, recover_stress, estimate_error
    use atrito_results, only: results_t, has_forces
    use atrito_row_entries, only: first_motions
@@ -46,8 +47,8 @@ contains
       first = first_motions(data%fem%bodies)
       do b = 1, data%fem%bodies%n
          associate (nodes => data%fem%bodies%list(b)%nodes, a => solution%state%a(first(b):first(b + 1) - 1))
-            is_still(b) = maxval(abs(u(:, nodes))) + sum(abs(a)) <= NONE_OF_HAD*data%had%motion(b) .and. &
-                          all(data%f(:, nodes) == 0.0_wp)
+            is_still(b) = largest_at(u, nodes) + sum(abs(a)) <= NONE_OF_HAD*data%had%motion(b) .and. &
+                          largest_at(data%f, nodes) <= 0.0_wp
             if (is_still(b)) then
                u(:, nodes) = 0.0_wp
                a = 0.0_wp
@@ -93,7 +94,7 @@ contains
       largest(0) = huge(1.0_wp)
       do b = 1, data%fem%bodies%n
          associate (nodes => data%fem%bodies%list(b)%nodes)
-            largest(b) = maxval(abs(data%f(:, nodes)))
+            largest(b) = largest_at(data%f, nodes)
          end associate
       end do
       do i = 1, size(data%line%point, kind=ip)
@@ -124,7 +125,7 @@ contains
       do b = 1, data%fem%bodies%n
          associate (body => data%fem%bodies%list(b))
             if (body%is_rigid) cycle
-            if (allocated(data%thermal)) force(b) = max(force(b), maxval(abs(data%thermal(:, body%nodes))))
+            if (allocated(data%thermal)) force(b) = max(force(b), largest_at(data%thermal, body%nodes))
             motion(b) = force(b)/least_stiffness(data%fem, body%elements, stiffness)
          end associate
       end do
@@ -290,9 +291,8 @@ contains
       solution%body_force = solution%body_motion
       do b = 1, data%fem%bodies%n
          associate (nodes => data%fem%bodies%list(b)%nodes)
-            solution%body_motion(b) = maxval(abs(results%u(:, nodes)))
-            solution%body_force(b) = max(maxval(abs(data%f(:, nodes))), maxval(abs(contact(:, nodes))), &
-                                         maxval(abs(results%reaction(:, nodes))))
+            solution%body_motion(b) = largest_at(results%u, nodes)
+            solution%body_force(b) = max(largest_at(data%f, nodes), largest_at(contact, nodes), largest_at(results%reaction, nodes))
          end associate
       end do
    end subroutine measure_sizes

@@ -5,7 +5,7 @@ module atrito_range
    use atrito_threads, only: is_shared, chunk_count, find_chunk
    implicit none (type, external)
    private
-   public :: work_of, unit_of
+   public :: work_of, unit_of, largest_at
 
 contains
 
@@ -48,5 +48,19 @@ contains
       !$omp end parallel do
       if (maxval(largest) > 0.0_wp) unit = scale(1.0_wp, max(-MOST, min(MOST, exponent(maxval(largest)))))
    end function unit_of
+
+   !> The largest size in some columns; 0: there are none. A loop costs a fifth of maxval with a list of places.
+   pure real(wp) function largest_at(values, columns) result(largest)
+      real(wp), intent(in) :: values(:, :)                 !< of any dimension
+      integer(ip), intent(in) :: columns(:)                !< places along the second extent
+      integer(ip) :: i, k
+
+      largest = 0.0_wp
+      do k = 1, size(columns, kind=ip)
+         do i = 1, size(values, 1, kind=ip)
+            if (abs(values(i, columns(k))) > largest) largest = abs(values(i, columns(k)))
+         end do
+      end do
+   end function largest_at
 
 end module atrito_range

@@ -188,14 +188,16 @@ contains
       integer, intent(in) :: kind                     !< IS_REAL, IS_LONG, IS_TEXT, ...
       integer(lp), intent(inout) :: extents(:)        !< none: a scalar
       integer(lp), intent(out) :: n                   !< product of the extents; NOT_ALLOCATED
-      integer(lp) :: head(0:size(extents))
+      integer(lp) :: head(0:size(extents)), mark
       integer :: k
 
-      head(0) = mark_of(name, kind, size(extents))
+      mark = 0                                       ! what the same process wrote is known by its place
+      if (.not. archive%is_spooled) mark = mark_of(name, kind, size(extents))
+      head(0) = mark
       head(1:) = extents
       call pass_longs(archive, name, head)
       if (archive%is_reading) then
-         call demand(archive, head(0) == mark_of(name, kind, size(extents)) .and. all(head(1:) >= NOT_ALLOCATED), name)
+         call demand(archive, head(0) == mark .and. all(head(1:) >= NOT_ALLOCATED), name)
          ! extents that no part of a file can have; the products below are not too large then
          call demand(archive, all(head(1:) <= huge(1_ip)), name)
          if (.not. is_ok(archive%status)) head(1:) = NOT_ALLOCATED
@@ -256,9 +258,10 @@ contains
    end subroutine pass_longs
 
    !> Writes or reads reals, of which there are enough.
-   subroutine pass_reals(archive, values)
+   subroutine pass_reals(archive, n, values)
       type(archive_t), intent(inout) :: archive      !< with an open part, or spooled
-      real(wp), intent(inout) :: values(:)           !< what is written or read
+      integer(lp), intent(in) :: n                   !< how many
+      real(wp), intent(inout) :: values(n)           !< what is written or read; an array of any rank, at once
       integer(lp) :: next
 
       if (archive%is_spooled) then
@@ -266,7 +269,7 @@ contains
          call note_outcome(archive)
          return
       end if
-      next = archive%n_reals + size(values, kind=lp)
+      next = archive%n_reals + n
       if (archive%is_reading) then
          values = archive%reals(archive%n_reals + 1:next)
       else

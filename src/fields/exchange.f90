@@ -41,7 +41,7 @@ contains
       call exchange_head(archive, name, IS_REAL, extents, n)
       call demand(archive, n == size(values), name)
       if (is_ok(archive%status)) then
-         call pass_reals(archive, values)
+         call pass_reals(archive, n, values)
       else if (archive%is_reading) then
          values = 0.0_wp
       end if
@@ -60,7 +60,7 @@ contains
          if (allocated(values)) deallocate (values)
          if (n /= NOT_ALLOCATED) allocate (values(n))
       end if
-      if (allocated(values)) call pass_reals(archive, values)
+      if (allocated(values)) call pass_reals(archive, size(values, kind=lp), values)
    end subroutine exchange_reals
 
    subroutine exchange_columns(archive, name, values)
@@ -68,7 +68,6 @@ contains
       character(len=*), intent(in) :: name
       real(wp), allocatable, intent(inout) :: values(:, :)
       integer(lp) :: extents(2), n
-      integer :: i
 
       extents = NOT_ALLOCATED
       if (allocated(values)) extents = shape(values, kind=lp)
@@ -77,10 +76,7 @@ contains
          if (allocated(values)) deallocate (values)
          if (n /= NOT_ALLOCATED) allocate (values(extents(1), extents(2)))
       end if
-      if (.not. allocated(values)) return
-      do i = 1, size(values, 2)
-         call pass_reals(archive, values(:, i))
-      end do
+      if (allocated(values)) call pass_reals(archive, size(values, kind=lp), values)
    end subroutine exchange_columns
 
    subroutine exchange_long(archive, name, value)

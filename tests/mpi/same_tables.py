@@ -72,10 +72,11 @@ def arguments(deck, output, over_ranks):
 
 
 def settings():
-    """What ./run --ranks sets (tools/ranks.sh)."""
+    """What ./run --ranks sets (tools/ranks.sh); where a run ends with an error mpirun does not wait two seconds for the other ranks to end,
+    which have nothing to clean up here."""
     script = f'. {HERE}/../../tools/ranks.sh; prepare_mpirun; env | grep "^OMPI_\\|^PRTE_"'
     lines = subprocess.run(['sh', '-c', script], capture_output=True, text=True).stdout.splitlines()
-    return dict(os.environ, **dict(line.split('=', 1) for line in lines))
+    return dict(os.environ, OMPI_MCA_odls_base_sigkill_timeout='0', **dict(line.split('=', 1) for line in lines))
 
 
 def run(program, deck, output, environment, limit, more=()):
@@ -175,12 +176,12 @@ def nothings(folders):
     return {key for key, size in largest.items() if size <= NOTHING*of_kind[kind_of(key[1])]}
 
 
-def compare(plain, a, b, again, excepted, between=None):
+def compare(plain, a, b, by_others, excepted, between=None):
     """The largest difference over what is allowed, that of the excepted tables, and what is past it."""
     names_a, names_b = tables(a), tables(b)
     faults = [f'{name} only of one' for name in sorted(set(names_a) ^ set(names_b))]
     found = differences(plain, a, b)
-    noise = [differences(plain, a, other) for other in again] if found else []
+    noise = [differences(plain, a, other) for other in by_others.folders()] if found else []
     noise.append(between or {})
     worst, worst_excepted = 0.0, 0.0
     round_off = nothings([a, b]) if found else set()
@@ -214,6 +215,22 @@ def others(options):
     return [['--solver', name] for name in ('sparse', 'skyline') if ('--solver', name) not in zip(options, options[1:])]
 
 
+class ByOthers:
+    """The results of the plain program with its other solvers: run when they are asked for, once."""
+
+    def __init__(self, deck, options, work):
+        self.deck, self.options, self.work, self.found = deck, options, work, None
+
+    def folders(self):
+        if self.found is None:
+            self.found = []
+            for other in others(self.deck.options):
+                self.found.append(os.path.join(self.work, other[-1]))
+                run([self.options.plain], self.deck, self.found[-1], None, self.options.at_most, other)
+                drop_counts(self.found[-1])
+        return self.found
+
+
 def try_deck(deck, options, exceptions, environment):
     """Lines of the report, and whether all is as it should be."""
     work = tempfile.mkdtemp(dir=options.keep, prefix='same-')
@@ -224,24 +241,19 @@ def try_deck(deck, options, exceptions, environment):
         if code is None:
             return [f'{deck.name}: left out, more than {options.at_most} s'], True, False
         drop_counts(plain)
-        again = []
-        for other in others(deck.options):
-            again.append(os.path.join(work, other[-1]))
-            run([options.plain], deck, again[-1], None, options.at_most, other)
-            drop_counts(again[-1])
-        right, words = True, []
+        by_others, right, words = ByOthers(deck, options, work), True, []
         for n in options.ranks:
             by_ranks = os.path.join(work, f'ranks-{n}')
             found = run(['mpirun', '-n', str(n), options.mpi], deck, by_ranks, environment, 100 + 20*seconds)
             drop_counts(by_ranks)
-            worst, worst_excepted, faults = compare(options.plain, plain, by_ranks, again, excepted)
+            worst, worst_excepted, faults = compare(options.plain, plain, by_ranks, by_others, excepted)
             if faults and found[0] == code:
                 # what two runs over the same ranks do not agree on is round-off: memory is aligned otherwise
                 once_more = os.path.join(work, f'ranks-{n}-again')
                 run(['mpirun', '-n', str(n), options.mpi], deck, once_more, environment, 100 + 20*seconds)
                 drop_counts(once_more)
                 between = differences(options.plain, by_ranks, once_more)
-                worst, worst_excepted, faults = compare(options.plain, plain, by_ranks, again, excepted, between)
+                worst, worst_excepted, faults = compare(options.plain, plain, by_ranks, by_others, excepted, between)
             if found[0] != code:
                 faults.append(f'exit {found[0]}, not {code}' if found[0] is not None else 'does not end')
                 faults.append('says at last: ' + ' / '.join(found[3].splitlines()[-40:]))
@@ -287,4 +299,5 @@ def main():
     return 1 if wrong or not compared else 0
 
 
-sys.exit(main())
+if __name__ == "__main__":
+    sys.exit(main())
