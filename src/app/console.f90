@@ -49,6 +49,7 @@ contains
          return
       end if
       printed = min(n, int(MOST_ERRORS, ip))
+      if (first == 1) where (n > 0) n = [(count_messages(int(i)), i=1, SEVERITY_NOTE)]   ! and those that are not kept
       do i = SEVERITY_NOTE, 1, -1
          if (n(i) > printed(i)) call print_line('... the first '//to_text(printed(i))//' of '//to_text(n(i))//' '//trim(WORDS(i)), &
                                                 error_unit)

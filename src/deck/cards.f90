@@ -56,6 +56,10 @@ contains
       type(string_t), allocatable :: near(:)
       integer :: verdict, subject
 
+      if (.not. has_room(SEVERITY_ERROR)) then      ! there may be very many
+         call report_error(deck, card%place, 'E-KEYWORD', 'unknown keyword *'//token_text(deck, card%place))
+         return
+      end if
       name = upper_case(token_text(deck, card%place))
       call ask_keyword(packed(name), verdict, subject)
       select case (verdict)
@@ -68,10 +72,6 @@ contains
          if (subject == deck%subject .or. is_company(deck, name)) return   ! of elements, or of a keyword, that are refused
          call report_outside(deck, card%place, '*'//name, subject)
       case (NOT_FOREIGN)
-         if (.not. has_room(SEVERITY_ERROR)) then   ! there may be very many
-            call report_error(deck, card%place, 'E-KEYWORD', 'unknown keyword *'//token_text(deck, card%place))
-            return
-         end if
          near = nearest_names(token_text(deck, card%place), keyword_names(deck%keywords), 1)
          if (size(near) > 0) card%meant = near(1)%s
          call report_error(deck, card%place, 'E-KEYWORD', 'unknown keyword *'//token_text(deck, card%place), &

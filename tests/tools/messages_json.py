@@ -119,6 +119,9 @@ more = changed("more.inp", {6: b"*NODE\n" + b"\n".join(b"%d, x, 0" % i for i in 
 last = told("more errors", 2, ["check", more])[-1]
 if last["id"] != "N-MORE" or not last["text"].startswith("500 more errors"):
     fail(f"more errors: {last}")
+shown = subprocess.run([atrito, "check", more], cwd=folder, capture_output=True, text=True).stderr.splitlines()
+if shown[-2:] != ["... the first 50 of 1500 errors", "1500 errors in the deck"]:
+    fail(f"more errors, on the screen: {shown[-2:]}")
 
 # a note, and --quiet
 noted = changed("noted.inp", {35: b"1, 1, 3"})
