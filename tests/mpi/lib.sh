@@ -6,12 +6,13 @@ atrito_mpi=$1
 prepare_mpirun
 cd "$work" || exit 9
 
-# by_ranks N WORDS: exit code in `code`, what is said in out and err.
+# by_ranks N WORDS: exit code in `code`, what is said in out and err. Where a run ends with an error mpirun waits two seconds for its
+# ranks to end before it kills them; not here, so that what cleans up too late is seen.
 by_ranks() {
    n=$1
    shift
    rm -f pid.*
-   mpirun -n "$n" sh -c 'echo $$ >pid.$OMPI_COMM_WORLD_RANK; exec "$0" "$@"' "$atrito_mpi" "$@" >out 2>err
+   OMPI_MCA_odls_base_sigkill_timeout=0 mpirun -n "$n" sh -c 'echo $$ >pid.$OMPI_COMM_WORLD_RANK; exec "$0" "$@"' "$atrito_mpi" "$@" >out 2>err
    code=$?
    sed -i '/^\[warn\] Epoll /d' err    # of mpirun's own events, now and then, when a process ends early
 }
