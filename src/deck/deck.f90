@@ -118,6 +118,7 @@ module atrito_deck
       type(gmsh_mesh_t), allocatable :: meshes(:)     !< of *INCLUDE, TYPE=GMSH, in their order
       type(edits_t) :: edits                          !< what is replaced when the deck is written as it was run
       type(scope_t), allocatable :: scopes(:)         !< (0:instances); not allocated: a deck without parts
+      logical :: is_read = .false.                    !< its cards are all there
       integer(ip) :: n_sources = 0, n_cards = 0, n_lines = 0, n_tokens = 0, n_parameters = 0 !< in use
    end type deck_t
 

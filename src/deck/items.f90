@@ -324,11 +324,11 @@ contains
 
    !> Of a line of n values: `2,5` and `1,2e-5` are decimal commas, `7850, 20` and `7.85e-9,20` have a further item. False: the
    !> first, reported.
-   logical function check_comma(deck, line, n, expected, keyword) result(ok)
+   logical function check_comma(deck, line, n, expected) result(ok)
       type(deck_t), intent(in) :: deck                 !< as read; messages name its lines
       type(data_line_t), intent(in) :: line            !< data line
       integer(ip), intent(in) :: n                     !< values of a line
-      character(len=*), intent(in) :: expected, keyword !< for the message: items, and help of the card
+      character(len=*), intent(in) :: expected         !< for the message: items
       character(len=*), parameter :: DIGITS = '0123456789'
       character(len=:), allocatable :: behind
       type(token_t) :: value, next
@@ -341,7 +341,7 @@ contains
       behind = token_text(deck, next)
       ok = verify(token_text(deck, value)//behind(:1), DIGITS) > 0 .or. scan(behind, '.') > 0
       if (.not. ok) call report_error(deck, next, 'E-ITEMS', to_text(n + 1)//' items, where '//to_text(n)//' belong'// &
-                                      trim(merge('s', ' ', n == 1)), expected=expected, keyword=keyword)
+                                      trim(merge('s', ' ', n == 1)), expected=expected)
    end function check_comma
 
 end module atrito_items

@@ -91,6 +91,7 @@ contains
       ! lines and tokens are many: they keep their spare room
       deck%cards = deck%cards(:deck%n_cards)
       deck%parameters = deck%parameters(:deck%n_parameters)
+      deck%is_read = .true.
    end subroutine read_deck
 
    !> Reads a source to its end.

@@ -366,22 +366,20 @@ contains
    end function place_text
 
    !> Keeps where the i-th node or element comes from; a number given twice is an error, i being the place of the earlier one.
-   subroutine note_number(deck, numbered, noun, id, i, place, known, keyword)
+   subroutine note_number(deck, numbered, noun, id, i, place, known)
       type(deck_t), intent(in) :: deck                 !< as read; messages name its lines
       type(numbered_t), intent(inout) :: numbered      !< nodes or elements; gets place and greatest
       character(len=*), intent(in) :: noun             !< 'node' or 'element'
       integer(ip), intent(in) :: id, i                 !< number in the model, and place in the mesh
       integer(ip), intent(in) :: place                 !< token (> 0) or card (< 0) of the deck
       logical, intent(in) :: known                     !< the number is given twice
-      character(len=*), intent(in) :: keyword          !< of the card, for `atrito help KEYWORD`
       type(token_t) :: token
 
       if (known) then
          token = place_token(deck, place)
          call report_error(deck, token, 'E-TWICE', noun//' '//to_text(id - scope_shift(deck, token))//scope_text(deck, token)// &
-                           ' is given twice, first in '// &
-                           place_text(deck, place_token(deck, numbered%place(i)), token), &
-                           expected=trim(merge('an', 'a ', noun == 'element'))//' '//noun//' number that is free', keyword=keyword)
+                           ' is given twice, first in '//place_text(deck, place_token(deck, numbered%place(i)), token), &
+                           expected=trim(merge('an', 'a ', noun == 'element'))//' '//noun//' number that is free')
       else
          call note_place(numbered%place, i, place)
          numbered%greatest = max(numbered%greatest, id)
@@ -437,8 +435,7 @@ contains
       if (.not. found) return
       if (has_name(names, name)) then
          call report_error(deck, place, 'E-TWICE', noun//' '//name//' is defined twice, first in '// &
-                           place_text(deck, places(find_name(names, name)), place), &
-                           expected='a name that no other '//noun//' has', keyword=keyword_name(card))
+                           place_text(deck, places(find_name(names, name)), place), expected='a name that no other '//noun//' has')
          return
       end if
       call add_name(names, name)

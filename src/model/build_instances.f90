@@ -28,11 +28,11 @@ contains
             card = context%deck%cards(scope%card)      ! a line of the translation, and one of the rotation
             associate (deck => context%deck, motion => context%motions(i))
                if (card%n_lines > 0) then
-                  if (deck%lines(card%first_line)%ok) call read_shift(deck, deck%lines(card%first_line), 'INSTANCE', motion, found)
+                  if (deck%lines(card%first_line)%ok) call read_shift(deck, deck%lines(card%first_line), motion, found)
                end if
                if (card%n_lines > 1) then
-                  if (deck%lines(card%first_line + 1)%ok) call read_rotation(deck, deck%lines(card%first_line + 1), 'INSTANCE', &
-                                                                             1.0_wp, motion, found)
+                  if (deck%lines(card%first_line + 1)%ok) call read_rotation(deck, deck%lines(card%first_line + 1), 1.0_wp, &
+                                                                             motion, found)
                end if
             end associate
             instance%name = scope%name

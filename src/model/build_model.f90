@@ -275,12 +275,12 @@ contains
             if (keyword_name(card) /= 'UNITS' .or. card%n_lines == 0) cycle
             if (.not. deck%lines(card%first_line)%ok) cycle
             if (allocated(units%names(1)%s)) call report_error(deck, card%place, 'E-TWICE', '*UNITS is given twice', &
-                                                               expected='one *UNITS a deck', keyword='UNITS')
+                                                               expected='one *UNITS a deck')
             do k = 1, min(N_UNITS, deck%lines(card%first_line)%n_tokens)
                item = line_item(deck, deck%lines(card%first_line), k)
                units%names(k)%s = token_text(deck, item)
-               if (scan(units%names(k)%s, NOT_OF_A_UNIT) > 0) call report_error(deck, item, 'E-NAME', &
-                                             'no name of a unit', expected='a name without any of '//NOT_OF_A_UNIT, keyword='UNITS')
+               if (scan(units%names(k)%s, NOT_OF_A_UNIT) > 0) call report_error(deck, item, 'E-NAME', 'no name of a unit', &
+                                                                                expected='a name without any of '//NOT_OF_A_UNIT)
                if (len(units%names(k)%s) == 0) deallocate (units%names(k)%s)
             end do
          end associate

@@ -80,7 +80,7 @@ contains
          k = k + 1
          if (k > last) then
             call report_error(context%deck, place, 'E-LINES', to_text(filled)//' terms, where '//to_text(n)//' belong', &
-                              expected=TERM, keyword=KEYWORD)
+                              expected=TERM)
             ok = .false.
             return
          end if
@@ -90,7 +90,7 @@ contains
          if (.not. ok) then
             call report_error(context%deck, line_item(context%deck, context%deck%lines(k), 1_ip), 'E-ITEMS', to_text(items)// &
                               ' items, where '//to_text(n - filled)//trim(merge(' term is  ', ' terms are', n - filled == 1))// &
-                              ' missing', expected=TERM, keyword=KEYWORD)
+                              ' missing', expected=TERM)
             return
          end if
          call read_term_line(context, context%deck%lines(k), terms(filled + 1:filled + more), ok)
@@ -113,14 +113,13 @@ contains
       place = line_item(context%deck, line, 1_ip)
       ok = item_count(context, line) == 1
       if (.not. ok) then
-         call report_error(context%deck, place, 'E-ITEMS', 'an equation begins with the number of its terms, alone', &
-                           expected=WHAT, keyword=KEYWORD)
+         call report_error(context%deck, place, 'E-ITEMS', 'an equation begins with the number of its terms, alone', expected=WHAT)
          return
       end if
-      call get_integer(context%deck, place, WHAT, n, ok, keyword=KEYWORD)
+      call get_integer(context%deck, place, WHAT, n, ok)
       if (.not. ok .or. n > 0) return
       ok = .false.
-      call report_error(context%deck, place, 'E-VALUE', to_text(n)//' terms', expected=WHAT, keyword=KEYWORD)
+      call report_error(context%deck, place, 'E-VALUE', to_text(n)//' terms', expected=WHAT)
    end subroutine read_count
 
    !> Items of a line without empty ones at its end.
@@ -149,21 +148,20 @@ contains
          associate (item => ITEMS_A_TERM*(i - 1))
             place = line_item(context%deck, line, item + 1)
             dof_place = line_item(context%deck, line, item + 2)
-            call find_nodes(context, place, terms(i)%nodes, good(1), KEYWORD)
-            call get_integer(context%deck, dof_place, WHAT_DOF, terms(i)%dof, good(2), keyword=KEYWORD)
+            call find_nodes(context, place, terms(i)%nodes, good(1))
+            call get_integer(context%deck, dof_place, WHAT_DOF, terms(i)%dof, good(2))
             call get_real(context%deck, line_item(context%deck, line, item + 3), 'coefficient, a real', terms(i)%coefficient, &
-                          good(3), keyword=KEYWORD)
+                          good(3))
             ! where there are reference nodes dof 6 is a rotation, which the node may not have
             if (all(good) .and. terms(i)%dof > PLANE_DOFS .and. &
                 terms(i)%dof <= merge(LAST_DOF, LAST_DOF - 1_ip, size(context%model%rigid_bodies) == 0)) then
-               call report_note(context%deck, dof_place, 'N-DOF', 'the dofs 3 to 6 do not exist in the plane; this term is 0', &
-                                keyword=KEYWORD)
+               call report_note(context%deck, dof_place, 'N-DOF', 'the dofs 3 to 6 do not exist in the plane; this term is 0')
                terms(i)%dof = NO_DOF
                cycle
             end if
-            if (good(2)) call check_row_dof(context, dof_place, terms(i)%nodes, terms(i)%dof, KEYWORD, good(2))
+            if (good(2)) call check_row_dof(context, dof_place, terms(i)%nodes, terms(i)%dof, good(2))
          end associate
-         if (good(1)) call check_row_nodes(context, place, terms(i)%nodes, 'nodes of elements', KEYWORD, good(1))
+         if (good(1)) call check_row_nodes(context, place, terms(i)%nodes, 'nodes of elements', good(1))
          ok = ok .and. all(good)
       end do
    end subroutine read_term_line
@@ -194,7 +192,7 @@ contains
          if (ok) call order_like(context%refinement, terms(1)%nodes, terms(i)%nodes, ok)
       end do
       if (.not. ok) call report_error(context%deck, place, 'E-REFINE', 'the new nodes of these sets have no partners', &
-                                      expected='sets along edges of elements, in the same order', keyword=KEYWORD)
+                                      expected='sets along edges of elements, in the same order')
    end subroutine order_sets
 
    !> The equations of terms: one for each node of the first.
@@ -210,7 +208,7 @@ contains
       associate (n => size(terms(1)%nodes, kind=ip))
          if (any([(size(terms(i)%nodes) /= 1 .and. size(terms(i)%nodes) /= n, i=1, size(terms, kind=ip))])) then
             call report_error(context%deck, place, 'E-EQUATION', 'the sets of this equation have different numbers of nodes', &
-                              expected='sets of as many nodes as the first, or single nodes', keyword=KEYWORD)
+                              expected='sets of as many nodes as the first, or single nodes')
             return
          end if
          do k = 1, n
@@ -221,7 +219,7 @@ contains
             end do
             if (is_empty([nodes], reshape(vectors, [2_ip, size(nodes, kind=ip)]))) then
                call report_error(context%deck, place, 'E-VALUE', 'all coefficients of this equation are 0, or cancel', &
-                                 expected='a coefficient other than 0', keyword=KEYWORD)
+                                 expected='a coefficient other than 0')
                return
             end if
             scale = 1.0_wp                               ! rotations have another unit: the largest entry is 1 as of motions

@@ -57,13 +57,13 @@ contains
 
       call option_text(context%deck, card, 'SURFACE', name, found, place)
       if (.not. (found .and. card%ok)) return
-      call find_surface(context, place, surface, KEYWORD)
+      call find_surface(context, place, surface)
       if (surface == 0) return
       call find_free_node(card, context, 'NODE', WHAT_NODE, node, node_place)
       if (node == 0) return
       if (is_reference(context, node)) then
-         call report_error(context%deck, node_place, 'E-NODE', 'node '//to_text(context%model%mesh%node_id(node)) &
-                           //' is that of another section, or of a rigid surface', expected=WHAT_NODE, keyword=KEYWORD)
+         call report_error(context%deck, node_place, 'E-NODE', 'node '//to_text(context%model%mesh%node_id(node))// &
+                           ' is that of another section, or of a rigid surface', expected=WHAT_NODE)
          return
       end if
       if (context%model%surfaces(surface)%kind /= SURFACE_ELEMENTS .or. context%model%surfaces(surface)%faces%n == 0) then
@@ -105,20 +105,20 @@ contains
       normal = outward/max(norm2(outward), tiny(1.0_wp))
       if (.not. ok) call refuse(context, card%place, 'the faces have no normal in the mean')
       if (card%n_lines == 0) return
-      call get_reals(context%deck, context%deck%lines(card%first_line), 1_ip, WHAT, given, ok, KEYWORD, spread(0.0_wp, 1, 3))
+      call get_reals(context%deck, context%deck%lines(card%first_line), 1_ip, WHAT, given, ok, spread(0.0_wp, 1, 3))
       if (.not. ok) return
       place = line_item(context%deck, context%deck%lines(card%first_line), 1_ip)
       ok = norm2(given(:2)) > 0.0_wp .and. abs(given(3)) <= 0.0_wp
       if (.not. ok) then
          call report_error(context%deck, place, 'E-VALUE', 'this normal does not lie in the plane, or is 0', &
-                           expected='x and y of the normal, and 0', keyword=KEYWORD)
+                           expected='x and y of the normal, and 0')
          return
       end if
       normal = given(:2)/maxval(abs(given(:2)))
       normal = normal/norm2(normal)
       if (dot_product(normal, outward) >= 0.0_wp) return
       call report_warning(context%deck, place, 'W-CUT', 'the normal points into the elements of the surface: a positive '// &
-                          'force pushes the sides apart', expected='a normal that points away from these elements', keyword=KEYWORD)
+                          'force pushes the sides apart', expected='a normal that points away from these elements')
    end subroutine read_normal
 
    !> Cuts the mesh, and gives the new nodes what the old ones have.
@@ -163,7 +163,7 @@ contains
       character(len=*), intent(in) :: what
 
       call report_error(context%deck, place, 'E-CUT', what, expected='faces inside a body, all of the elements on one '// &
-                        'side, from outline to outline', keyword=KEYWORD)
+                        'side, from outline to outline')
    end subroutine refuse
 
    !> The rows that hold the sides together; no nodes are made any more.

@@ -75,7 +75,7 @@ contains
          i = reading%first(k)
          if (reading%given(k) .or. reading%first(k + 1) == i) cycle
          call report_error(context%deck, reading%place(reading%sorted(i)), 'E-SPRING', 'the springs of '//names(k)%s// &
-                           ' have no *SPRING', expected='*SPRING, ELSET='//names(k)%s, keyword='SPRING')
+                           ' have no *SPRING', expected='*SPRING, ELSET='//names(k)%s)
       end do
    end subroutine build_springs
 
@@ -91,7 +91,7 @@ contains
       call option_text(context%deck, card, 'ELSET', name, found)
       if (.not. found) then
          if (card%ok) call report_error(context%deck, card%place, 'E-OPTION-MISSING', 'springs need ELSET=, which *SPRING names', &
-                                        expected='*ELEMENT, TYPE=SPRING1, ELSET=name', keyword='SPRING')
+                                        expected='*ELEMENT, TYPE=SPRING1, ELSET=name')
          return
       end if
       set = find_name(reading%sets, name)
@@ -117,11 +117,11 @@ contains
       logical :: ok, good, known
 
       place = line_item(context%deck, line, 1_ip)
-      call get_id(context%deck, place, 'element number', spring%id, ok, 'SPRING')
+      call get_id(context%deck, place, 'element number', spring%id, ok)
       do i = 1, n_ends
-         call find_one_node(context, line_item(context%deck, line, i + 1), spring%node(i), good, 'SPRING')
+         call find_one_node(context, line_item(context%deck, line, i + 1), spring%node(i), good)
          if (good .and. n_ends == 1) call check_row_nodes(context, line_item(context%deck, line, i + 1), spring%node(i:i), &
-                                                          'nodes of elements that are not springs', 'SPRING', good)
+                                                          'nodes of elements that are not springs', good)
          ok = ok .and. good
       end do
       if (.not. ok) return
@@ -129,12 +129,12 @@ contains
       if (.not. known) call add_id(reading%ids, spring%id, reading%n + 1, known)
       if (known) then
          call report_error(context%deck, place, 'E-TWICE', 'element '//to_text(spring%id)//' is defined twice', &
-                           expected='a number of its own for each element and spring', keyword='SPRING')
+                           expected='a number of its own for each element and spring')
          return
       end if
       if (n_ends == 2 .and. spring%node(1) == spring%node(2)) then
          call report_error(context%deck, place, 'E-SHAPE', 'both ends of spring '//to_text(spring%id)//' are one node', &
-                           expected='two nodes', keyword='SPRING')
+                           expected='two nodes')
          return
       end if
       reading%n = reading%n + 1
@@ -159,12 +159,12 @@ contains
       if (.not. found) return
       set = find_name(reading%sets, name)
       if (set == 0) then
-         call report_unknown(context, place, 'element set of springs', 'E-SET', reading%sets, 'SPRING')
+         call report_unknown(context, place, 'element set of springs', 'E-SET', reading%sets)
          return
       end if
       if (reading%given(set)) then
          call report_error(context%deck, place, 'E-TWICE', 'the springs of '//name//' have a *SPRING already', &
-                           expected='one *SPRING for each set', keyword='SPRING')
+                           expected='one *SPRING for each set')
          return
       end if
       reading%given(set) = .true.
@@ -173,7 +173,7 @@ contains
       if (any(reading%is_axial(places)) .and. .not. all(reading%is_axial(places))) then
          ok = .false.
          call report_error(context%deck, place, 'E-SPRING', 'the springs of '//name//' are SPRINGA and others', &
-                           expected='a set for each type', keyword='SPRING')
+                           expected='a set for each type')
       end if
       if (ok) call add_springs(context, places, reading, dof, stiffness)
    end subroutine read_spring_card
@@ -194,7 +194,7 @@ contains
       dof = 0
       ok = card%ok .and. card%n_lines > merge(0, 1, is_axial)
       if (card%ok .and. .not. (ok .or. is_axial)) call report_error(context%deck, card%place, 'E-LINES', &
-                                                                    '*SPRING needs 2 data lines', keyword='SPRING', &
+                                                                    '*SPRING needs 2 data lines', &
                                                                     expected='dofs, and below them the stiffness')
       if (.not. ok) return
       associate (deck => context%deck, first => context%deck%lines(card%first_line), &
@@ -203,11 +203,11 @@ contains
          if (.not. ok) return
          if (.not. is_axial) call read_dofs(first, context, places, dof, ok)
          place = line_item(deck, last, 1_ip)
-         call get_real(deck, place, WHAT, stiffness, good, keyword='SPRING')
+         call get_real(deck, place, WHAT, stiffness, good)
          ok = ok .and. good
          if (.not. good .or. (stiffness > 1.0_wp/huge(1.0_wp) .and. 1.0_wp/stiffness > 0.0_wp)) return
          ok = .false.
-         call report_error(deck, place, 'E-VALUE', to_text(stiffness)//' is out of range', expected=WHAT, keyword='SPRING')
+         call report_error(deck, place, 'E-VALUE', to_text(stiffness)//' is out of range', expected=WHAT)
       end associate
    end subroutine read_constants
 
@@ -224,20 +224,20 @@ contains
       integer(ip) :: i
 
       item = [line_item(context%deck, line, 1_ip), line_item(context%deck, line, 2_ip)]
-      call get_integer(context%deck, item(1), WHAT_DOF, dof(1), good(1), keyword='SPRING')
-      call get_integer(context%deck, item(2), WHAT_DOF, dof(2), good(2), dof(1), 'SPRING')
+      call get_integer(context%deck, item(1), WHAT_DOF, dof(1), good(1))
+      call get_integer(context%deck, item(2), WHAT_DOF, dof(2), good(2), dof(1))
       do i = 1, 2
          nodes = context%model%springs(places)%node(i)
          nodes = pack(nodes, nodes > 0)
          nodes = pack(nodes,.not. has_no_unknowns(context, nodes)) ! the ground has any dof
-         if (good(i)) call check_row_dof(context, item(i), nodes, dof(i), 'SPRING', good(i))
+         if (good(i)) call check_row_dof(context, item(i), nodes, dof(i), good(i))
          if (.not. good(i) .and. dof(2) == dof(1)) exit
       end do
       ok = all(good)
       if (.not. ok .or. ((dof(1) == ROTATION_DOF) .eqv. (dof(2) == ROTATION_DOF))) return
       ok = all(context%model%springs(places)%node(2) == 0)
       if (.not. ok) call report_error(context%deck, item(2), 'E-DOF', 'one end moves, the other one turns', &
-                                      expected='two dofs of one kind', keyword='SPRING')
+                                      expected='two dofs of one kind')
    end subroutine read_dofs
 
    !> Rows of the springs at some places. The first end gets the direction, the second one the opposite; along SPRINGA both point
@@ -311,8 +311,7 @@ contains
       ok = norm2(way) > 0.0_wp
       if (ok) vectors = reshape([-way, way], [2, 2])/norm2(way)
       if (.not. ok) call report_error(context%deck, place, 'E-SHAPE', 'both ends of spring '//to_text(spring%id)// &
-                                      ' lie at one place', expected='two places: the force is along the line between them', &
-                                      keyword='SPRING')
+                                      ' lie at one place', expected='two places: the force is along the line between them')
    end subroutine find_directions
 
    !> Ends that belong to no element: held at 0 in all steps they are the ground.
@@ -337,14 +336,14 @@ contains
             cycle
          end if
          call report_error(context%deck, place, 'E-NODE', 'node '//to_text(context%model%mesh%node_id(spring%node(i)))// &
-                           ' belongs to no element and is not held', expected='nodes of elements that are not springs, or ' &
-                           //'the ground: a node that *BOUNDARY holds at 0 in all steps', keyword='SPRING')
+                           ' belongs to no element and is not held', expected='nodes of elements that are not springs, or '// &
+                           'the ground: a node that *BOUNDARY holds at 0 in all steps')
          ok = .false.
          return
       end do
       ok = .not. all(is_ground)
       if (.not. ok) call report_error(context%deck, place, 'E-NODE', 'no end of spring '//to_text(spring%id)// &
-                                      ' belongs to an element', expected='a node of an element', keyword='SPRING')
+                                      ' belongs to an element', expected='a node of an element')
       if (.not. ok .or. .not. any(is_ground)) return
       i = merge(2_ip, 1_ip, is_ground(1))
       vectors(:, 1) = vectors(:, i)

@@ -115,8 +115,9 @@ contains
          end do
       end do
       if (released%n > 0 .and. .not. has_errors()) call report_note(context%deck, place, 'N-RELEASED', &
-                                        'OP=NEW lets go of what is held before *STEP, too: node '//ids_text(numbers_of(released)), &
-                                            expected='its supports again in this step, or OP=MOD, to keep them', keyword='BOUNDARY')
+                                                                    'OP=NEW lets go of what is held before *STEP, too: node '// &
+                                                                    ids_text(numbers_of(released)), &
+                                                                expected='its supports again in this step, or OP=MOD, to keep them')
    end subroutine note_released
 
    !> The cards of a step; 0: of the model.
@@ -169,7 +170,7 @@ contains
 
       if (is_support_word(context) .and. .not. is_function) then
          call find_dofs_of_word(context, held, ok)
-         if (ok) call find_nodes(context, line_token(context, 1_ip), nodes, ok, 'BOUNDARY')
+         if (ok) call find_nodes(context, line_token(context, 1_ip), nodes, ok)
          if (ok) values = spread(0.0_wp, 1, size(nodes))
       else
          call read_values(is_function, in_model, context, nodes, held, values, ok)
@@ -179,7 +180,7 @@ contains
       if (any(loose) .and. .not. has_errors()) then
          call report_note(context%deck, line_token(context, 1_ip), 'N-NODE', 'node '// &
                           ids_text(pack(context%model%mesh%node_id(nodes), loose))// &
-                          ' belongs to no element; the support has no effect there but on springs', keyword='BOUNDARY')
+                          ' belongs to no element; the support has no effect there but on springs')
       end if
       turns = is_reference(context, nodes)
       do dof = 1, LAST_DOF
@@ -212,9 +213,9 @@ contains
       logical :: ok(4)
 
       is_ok = .false.
-      call find_nodes(context, line_token(context, 1_ip), nodes, ok(1), 'BOUNDARY')
-      call get_integer(context%deck, line_token(context, 2_ip), 'first '//WHAT_DOF, first, ok(2), keyword='BOUNDARY')
-      call get_integer(context%deck, line_token(context, 3_ip), 'last '//WHAT_DOF, last, ok(3), first, 'BOUNDARY')
+      call find_nodes(context, line_token(context, 1_ip), nodes, ok(1))
+      call get_integer(context%deck, line_token(context, 2_ip), 'first '//WHAT_DOF, first, ok(2))
+      call get_integer(context%deck, line_token(context, 3_ip), 'last '//WHAT_DOF, last, ok(3), first)
       place = line_token(context, 4_ip)
       if (is_function) then
          last_token = last_item(context%deck, open_line(context))
@@ -222,14 +223,14 @@ contains
          value = 1.0_wp                                ! a function is not 0, whatever it is: there are no harmless dofs
          ok(4) = .true.
       else
-         call get_real(context%deck, place, 'displacement, a real [L]', value, ok(4), 0.0_wp, 'BOUNDARY')
+         call get_real(context%deck, place, 'displacement, a real [L]', value, ok(4), 0.0_wp)
          if (.not. all(ok(2:))) return
       end if
       if (in_model .and. abs(value) > 0.0_wp) then
          ok(4) = .false.
          call report_error(context%deck, place, 'E-VALUE', 'a displacement other than 0 before *STEP', &
                            expected=trim(merge('*BOUNDARY, FUNCTION in the step     ', '0 [L] here; other values in the step', &
-                                               is_function)), keyword='BOUNDARY')
+                                               is_function)))
       end if
       if (all(ok(2:3))) ok(2) = are_dofs(context, first, last, value,.not. is_function .and. size(nodes) > 0 .and. &
                                          all(is_reference(context, nodes)))
@@ -296,8 +297,7 @@ contains
                         is_told = .true.
                         call report_note(context%deck, line_token(context, 1_ip), 'N-REFINE', 'nodes '// &
                                          to_text(ids(fine%edge_node(1, edge)))//' and '//to_text(ids(fine%edge_node(2, edge)))// &
-                                         ' have other amplitudes; nodes of the finer mesh between them keep what they had', &
-                                         keyword='BOUNDARY')
+                                         ' have other amplitudes; nodes of the finer mesh between them keep what they had')
                      end if
                   end associate
                end do
@@ -322,18 +322,18 @@ contains
       if (turns .and. first >= 1 .and. first < ROTATION_DOF .and. last > PLANE_DOFS .and. last <= LAST_DOF .and. &
           abs(value) > 0.0_wp) then
          call report_error(context%deck, line_token(context, 2_ip), 'E-DOF', 'the dofs 3 to 5 do not exist in the plane', &
-                           expected=expected, keyword='BOUNDARY')
+                           expected=expected)
       else if (first < 1 .or. max(first, last) > LAST_DOF .or. (last > PLANE_DOFS .and. abs(value) > 0.0_wp .and. .not. turns)) then
          call report_error(context%deck, line_token(context, item), 'E-DOF', 'dof '//to_text(merge(first, last, item == 2))// &
-                           ' does not exist in the plane', expected=expected, keyword='BOUNDARY')
+                           ' does not exist in the plane', expected=expected)
       else if (last < first) then
          call report_error(context%deck, line_token(context, 3_ip), 'E-DOF', 'the last dof, '//to_text(last)// &
-                           ', is less than the first', expected=WHAT_DOF//', not less than the first', keyword='BOUNDARY')
+                           ', is less than the first', expected=WHAT_DOF//', not less than the first')
       else
          are_dofs = .true.
          if (last <= PLANE_DOFS .or. turns .and. first == ROTATION_DOF) return
-         call report_note(context%deck, line_token(context, item), 'N-DOF', 'the dofs 3 to '//trim(merge('5', '6', turns)) &
-                          //' do not exist in the plane; their value is 0', keyword='BOUNDARY')
+         call report_note(context%deck, line_token(context, item), 'N-DOF', 'the dofs 3 to '//trim(merge('5', '6', turns))// &
+                          ' do not exist in the plane; their value is 0')
       end if
    end function are_dofs
 
@@ -372,7 +372,7 @@ contains
          do i = 1, size(nodes, kind=ip)
             if (loose(i)) call note_ground(context, nodes(i), dof, value(i))
             if (is_reference(context, nodes(i))) then
-               if (.not. can_move(context, line_token(context, 1_ip), nodes(i), dof, value(i), 'BOUNDARY')) cycle
+               if (.not. can_move(context, line_token(context, 1_ip), nodes(i), dof, value(i))) cycle
             else if (loose(i) .or. dof == ROTATION_DOF) then
                cycle
             end if
@@ -430,8 +430,7 @@ contains
       associate (deck => context%deck, place => line_token(context, 1_ip))
          call report_error(deck, place, 'E-CONFLICT', 'dof '//to_text(dof)//' of node '// &
                            ids_text(context%model%mesh%node_id(nodes))//' '//what//' in '// &
-                           place_text(deck, deck%tokens(deck%lines(earlier)%first_token), place), &
-                           expected=expected, keyword='BOUNDARY')
+                           place_text(deck, deck%tokens(deck%lines(earlier)%first_token), place), expected=expected)
       end associate
    end subroutine report_conflict
 
@@ -471,11 +470,11 @@ contains
       if (.not. ok) then
          call report_error(context%deck, token, 'E-DOF', token_text(context%deck, token)// &
                            ' is neither a dof nor a word for several', expected='degree of freedom: 1 (x) or 2 (y), or a word: '// &
-                           'ENCASTRE and PINNED hold both, XSYMM dof 1, YSYMM dof 2', known=known, keyword='BOUNDARY')
+                           'ENCASTRE and PINNED hold both, XSYMM dof 1, YSYMM dof 2', known=known)
       else if (line%n_tokens > 2) then
          ok = .false.
          call report_error(context%deck, line_token(context, 3_ip), 'E-ITEMS', 'items behind '//token_text(context%deck, token), &
-                           expected='nothing: what a word holds is 0', keyword='BOUNDARY')
+                           expected='nothing: what a word holds is 0')
       end if
    end subroutine find_dofs_of_word
 

@@ -70,13 +70,13 @@ contains
       if (found .and. tie%tolerance < 0.0_wp) then
          call find_option(context%deck, card, 'POSITION TOLERANCE', option, found)
          call report_error(context%deck, option%value, 'E-VALUE', 'POSITION TOLERANCE='//to_text(tie%tolerance)//' is negative', &
-                           expected=WHAT, keyword=KEYWORD)
+                           expected=WHAT)
          return
       end if
       do i = card%first_line, card%first_line + card%n_lines - 1
          if (.not. context%deck%lines(i)%ok) cycle
-         call find_surface(context, line_item(context%deck, context%deck%lines(i), 1_ip), tie%slave, KEYWORD)
-         call find_surface(context, line_item(context%deck, context%deck%lines(i), 2_ip), tie%master, KEYWORD)
+         call find_surface(context, line_item(context%deck, context%deck%lines(i), 1_ip), tie%slave)
+         call find_surface(context, line_item(context%deck, context%deck%lines(i), 2_ip), tie%master)
          if (min(tie%slave, tie%master) == 0) cycle
          n = n + 1
          context%model%ties(n) = tie
@@ -126,7 +126,7 @@ contains
       type(token_t), intent(in) :: place
       character(len=*), intent(in) :: text, expected
 
-      call report_error(context%deck, place, 'E-TIE', text, expected=expected, keyword=KEYWORD)
+      call report_error(context%deck, place, 'E-TIE', text, expected=expected)
    end subroutine refuse
 
    subroutine check_shared_nodes(context, place, slave, master)
@@ -201,7 +201,7 @@ contains
          ! sides that look the same way lie one over the other with their bodies
          if (from_behind(i)) call report_warning(context%deck, context%ties(i), 'W-TIE', 'the surfaces of tie '// &
                                                  context%model%ties(i)%name//' look the same way: their bodies lie over each '// &
-                                                 'other, and are tied there', expected=IN_FRONT, keyword=KEYWORD)
+                                                 'other, and are tied there', expected=IN_FRONT)
          call judge_points(context, i, points(i))
          if (context%model%ties(i)%adjusts) call adjust_nodes(context, i, points(i), moved)
       end do
@@ -257,11 +257,11 @@ contains
          call report_warning(context%deck, context%ties(i), 'W-TIE', to_text(far)//' of '//to_text(points%n)//' nodes of the '// &
                              'slave are farther than '//to_text(tolerance, 4)//' from the master and are not tied, the first '// &
                              'of them node '//to_text(context%model%mesh%node_id(points%node(first))), &
-                             expected='POSITION TOLERANCE=, if they are to be tied', keyword=KEYWORD)
+                             expected='POSITION TOLERANCE=, if they are to be tied')
       end if
       if (points%n > 0 .and. points%n_left_out > 0) then
          call report_note(context%deck, context%ties(i), 'N-LEFT-OUT', to_text(points%n_left_out)//' of '// &
-                          to_text(points%n_faces)//' faces of the slave face no master and are not tied', keyword=KEYWORD)
+                          to_text(points%n_faces)//' faces of the slave face no master and are not tied')
       end if
    end subroutine judge_points
 
@@ -289,8 +289,9 @@ contains
       if (n == 0) return
       moved = .true.
       call report_note(context%deck, context%ties(i), 'N-ADJUST', to_text(n)//trim(merge(' node of the slave is  ', &
-                                        ' nodes of the slave are', n == 1))//' moved onto the master, by '//to_text(farthest, 4)// &
-                       ' [L] at the most; ADJUST=NO leaves them where they are', keyword=KEYWORD)
+                                                                                         ' nodes of the slave are', n == 1))// &
+                       ' moved onto the master, by '//to_text(farthest, 4)// &
+                       ' [L] at the most; ADJUST=NO leaves them where they are')
    end subroutine adjust_nodes
 
    !> Two rows for each point that is tied, along x and y. Where the places that they join are apart they join them as a rod does

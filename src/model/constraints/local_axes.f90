@@ -52,8 +52,7 @@ contains
                   i = findloc(context%deck%cards(:context%deck%n_cards)%name, 'TRANSFORM', dim=1, kind=ip)
                   associate (id => context%model%mesh%node_id(nodes(:2)))
                      call report_note(context%deck, context%deck%cards(i)%place, 'N-REFINE', 'the finer mesh has nodes between '// &
-                                      to_text(id(1))//' and '//to_text(id(2))//', whose axes are different, and they have none', &
-                                      keyword='TRANSFORM')
+                                      to_text(id(1))//' and '//to_text(id(2))//', whose axes are different, and they have none')
                   end associate
                end if
             end associate
@@ -72,7 +71,7 @@ contains
       integer(ip) :: i
 
       call option_text(context%deck, card, 'NSET', name, found, place)
-      call find_nodes(context, place, nodes, found, 'TRANSFORM')
+      call find_nodes(context, place, nodes, found)
       call read_points(card, context, a, b, ok)
       if (.not. (found .and. ok)) return
       if (option_word(context%deck, card, 'TYPE') == 'R') then
@@ -82,8 +81,7 @@ contains
          associate (x => context%model%mesh%x)
             if (any([(all(x(:, nodes(i)) == a), i=1, size(nodes, kind=ip))])) then
                call report_error(context%deck, line_item(context%deck, context%deck%lines(card%first_line), 1_ip), 'E-VALUE', &
-                                 'a node of the set stands on the axis', expected='an axis away from the nodes', &
-                                 keyword='TRANSFORM')
+                                 'a node of the set stands on the axis', expected='an axis away from the nodes')
                return
             end if
             call take_axes(place, nodes, reshape([(axes_along(x(:, nodes(i)) - a), i=1, size(nodes, kind=ip))], &
@@ -106,9 +104,9 @@ contains
       integer(ip) :: item
 
       associate (line => context%deck%lines(card%first_line), deck => context%deck)
-         call get_reals(deck, line, 1_ip, WHAT, a, good(1), 'TRANSFORM')
-         call get_real(deck, line_item(deck, line, 3_ip), WHAT, z(1), good(2), 0.0_wp, 'TRANSFORM')
-         call get_reals(deck, line, 4_ip, WHAT, other, ok, 'TRANSFORM', [a, 0.0_wp])
+         call get_reals(deck, line, 1_ip, WHAT, a, good(1))
+         call get_real(deck, line_item(deck, line, 3_ip), WHAT, z(1), good(2), 0.0_wp)
+         call get_reals(deck, line, 4_ip, WHAT, other, ok, [a, 0.0_wp])
       end associate
       b = other(:2)
       z(2) = other(3)
@@ -126,7 +124,7 @@ contains
                expected = 'xb = xa and yb = ya: an axis along z'
             end if
             if (.not. ok) call report_error(context%deck, line_item(context%deck, context%deck%lines(card%first_line), item), &
-                                       'E-VALUE', 'the scene is plane: these axes leave it', expected=expected, keyword='TRANSFORM')
+                                            'E-VALUE', 'the scene is plane: these axes leave it', expected=expected)
          end associate
       end if
       if (.not. ok .or. card%scope == 0) return
@@ -157,7 +155,7 @@ contains
       if (ok .and. any(b /= a)) ok = abs(side) > SAME_AXIS*norm2(b)
       if (.not. ok) call report_error(context%deck, line_item(context%deck, context%deck%lines(card%first_line), 1_ip), 'E-VALUE', &
                                       'these points give no axes: one is the origin, or both lie on a line with it', &
-                                      expected='a point on the local x axis, and one to its side', keyword='TRANSFORM')
+                                      expected='a point on the local x axis, and one to its side')
       if (side < 0.0_wp) axes(:, 2) = -axes(:, 2)
    end subroutine rectangular_axes
 
@@ -186,8 +184,7 @@ contains
       end do
       if (any(clashes)) call report_error(context%deck, place, 'E-CONFLICT', 'node '// &
                                           ids_text(pack(context%model%mesh%node_id(nodes), clashes))// &
-                                          ' has other local axes already', expected='one *TRANSFORM for each node', &
-                                          keyword='TRANSFORM')
+                                          ' has other local axes already', expected='one *TRANSFORM for each node')
    end subroutine take_axes
 
    !> Whether a node has axes of its own, by *TRANSFORM.

@@ -35,34 +35,33 @@ contains
    end function has_no_unknowns
 
    !> ok is false, and an error reported, where some nodes have no unknowns.
-   subroutine check_row_nodes(context, place, nodes, expected, keyword, ok)
+   subroutine check_row_nodes(context, place, nodes, expected, ok)
       type(build_context_t), intent(in) :: context      !< which nodes have elements, and rigid bodies
       type(token_t), intent(in) :: place                !< at which the error is told
       integer(ip), intent(in) :: nodes(:)               !< places in the mesh
-      character(len=*), intent(in) :: expected, keyword !< for the message: what should be there, and help
+      character(len=*), intent(in) :: expected !< for the message: what should be there
       logical, intent(out) :: ok                        !< all have unknowns
 
       ok = .not. any(has_no_unknowns(context, nodes))
       if (ok .or. has_lost_elements(context)) return
       call report_error(context%deck, place, 'E-NODE', 'node '//ids_text(pack(context%model%mesh%node_id(nodes), &
-                                                                      has_no_unknowns(context, nodes)))//' belongs to no element', &
-                        expected=expected, keyword=keyword)
+                                                                              has_no_unknowns(context, nodes)))// &
+                        ' belongs to no element', expected=expected)
    end subroutine check_row_nodes
 
    !> ok is false, and an error reported, where some nodes do not have a dof.
-   subroutine check_row_dof(context, place, nodes, dof, keyword, ok)
+   subroutine check_row_dof(context, place, nodes, dof, ok)
       type(build_context_t), intent(in) :: context     !< its rigid bodies are read
       type(token_t), intent(in) :: place               !< of the dof
       integer(ip), intent(in) :: nodes(:), dof         !< places in the mesh; as the deck has it
-      character(len=*), intent(in) :: keyword          !< of the card, for `atrito help KEYWORD`
       logical, intent(out) :: ok                       !< all have the dof
       character(len=:), allocatable :: what
       integer(ip) :: i
 
       ok = dof == 1 .or. dof == 2 .or. (dof == ROTATION_DOF .and. all(is_reference(context, nodes)))
       if (.not. ok) then
-         call report_error(context%deck, place, 'E-DOF', 'dof '//to_text(dof)//' does not exist in the plane', &
-                           expected=WHAT_DOF//repeat(AT_REFERENCE, merge(1, 0, dof == ROTATION_DOF)), keyword=keyword)
+         call report_error(context%deck, place, 'E-DOF', 'dof '//to_text(dof)//' does not exist in the plane', expected=WHAT_DOF// &
+                           repeat(AT_REFERENCE, merge(1, 0, dof == ROTATION_DOF)))
          return
       end if
       if (.not. any(is_reference(context, nodes))) return
@@ -78,8 +77,7 @@ contains
          end associate
       end do
       ok = len(what) == 0
-      if (.not. ok) call report_error(context%deck, place, 'E-DOF', what//to_text(dof), &
-                                      expected='a dof by which it moves', keyword=keyword)
+      if (.not. ok) call report_error(context%deck, place, 'E-DOF', what//to_text(dof), expected='a dof by which it moves')
    end subroutine check_row_dof
 
    !> The node of the solver's mesh whose displacement is that of a node: of a reference node the first of those that carry it.
@@ -152,7 +150,7 @@ contains
          call read_tied_nodes(context%deck%cards(i), context, name, nodes, ok)
          if (.not. allocated(name)) cycle
          call option_text(context%deck, context%deck%cards(i), 'REF NODE', name, ok, place)
-         call find_nodes(context, place, reference, ok, 'RIGID BODY')
+         call find_nodes(context, place, reference, ok)
          call tie_nodes(context, rigid_body_of(context, reference(1)), nodes, weight)
       end do
    end subroutine add_rigid_rows

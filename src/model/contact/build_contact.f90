@@ -63,8 +63,7 @@ contains
       has_line = .not. given .and. card%n_lines > 0
       if (has_line) has_line = deck%lines(card%first_line)%ok
       if (given .and. card%ok) call report_error(deck, card%place, 'E-TWICE', 'surface interaction '//name//' has two *'// &
-                                                 keyword_name(card), expected='one *'//keyword_name(card)// &
-                                                 ' a surface interaction', keyword=keyword_name(card))
+                                                 keyword_name(card), expected='one *'//keyword_name(card)//' a surface interaction')
       given = .true.
    end subroutine take_once
 
@@ -82,29 +81,27 @@ contains
       associate (item => line_item(deck, deck%lines(card%first_line), 1_ip))
          select case (option_word(deck, card, 'PRESSURE-OVERCLOSURE'))
          case ('LINEAR')
-            call get_value(deck, card, item, 'slope, a real > 0 [F/L^3]', .true., slope, ok)
+            call get_value(deck, item, 'slope, a real > 0 [F/L^3]', .true., slope, ok)
             if (ok) interaction%delta = 1.0_wp/slope
          case ('PENALTY')
-            call get_value(deck, card, item, 'delta, a real >= 0 [L^3/F]', .false., interaction%delta, ok)
+            call get_value(deck, item, 'delta, a real >= 0 [L^3/F]', .false., interaction%delta, ok)
          end select
       end associate
    end subroutine read_behavior_card
 
    !> A value that is not negative, or positive. Its reciprocal must be a number, too.
-   subroutine get_value(deck, card, token, what, is_positive, value, ok)
+   subroutine get_value(deck, token, what, is_positive, value, ok)
       type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
       type(token_t), intent(in) :: token
       character(len=*), intent(in) :: what
       logical, intent(in) :: is_positive
       real(wp), intent(out) :: value
       logical, intent(out) :: ok
 
-      call get_real(deck, token, what, value, ok, keyword=keyword_name(card))
+      call get_real(deck, token, what, value, ok)
       if (.not. ok .or. value > 1.0_wp/huge(1.0_wp)) return
       ok = .not. (is_positive .or. abs(value) > 0.0_wp)
-      if (.not. ok) call report_error(deck, token, 'E-VALUE', to_text(value)//' is out of range', expected=what, &
-                                      keyword=keyword_name(card))
+      if (.not. ok) call report_error(deck, token, 'E-VALUE', to_text(value)//' is out of range', expected=what)
    end subroutine get_value
 
    !> *FRICTION: nu, and of NONLOCAL friction eps and rho, of local friction the slope of sticking.
@@ -120,19 +117,19 @@ contains
       call take_once(deck, card, interaction%name, given, ok)
       if (.not. ok) return
       items = [(line_item(deck, deck%lines(card%first_line), k), k=1, 3)]
-      call get_value(deck, card, items(1), 'coefficient of friction nu, a real >= 0 [-]', .false., interaction%nu, ok)
+      call get_value(deck, items(1), 'coefficient of friction nu, a real >= 0 [-]', .false., interaction%nu, ok)
       if (has_option(deck, card, 'NONLOCAL')) then
          interaction%friction = FRICTION_NONLOCAL
-         call get_value(deck, card, items(2), 'slip eps, a real >= 0 [L]', .false., interaction%eps, ok)
-         call get_value(deck, card, items(3), 'radius rho, a real >= 0 [L]', .false., interaction%rho, ok)
+         call get_value(deck, items(2), 'slip eps, a real >= 0 [L]', .false., interaction%eps, ok)
+         call get_value(deck, items(3), 'radius rho, a real >= 0 [L]', .false., interaction%rho, ok)
          if (option_word(deck, card, 'KERNEL') == 'LINE') interaction%kernel = KERNEL_LINE
          interaction%is_incremental = option_word(deck, card, 'SLIP') == 'INCREMENTAL'
       else
          interaction%friction = FRICTION_LOCAL
          interaction%is_incremental = option_word(deck, card, 'SLIP') /= 'TOTAL'
-         if (ok) ok = check_comma(deck, deck%lines(card%first_line), 1_ip, 'nu [-]; a stick slope behind it as 1000.', 'FRICTION')
+         if (ok) ok = check_comma(deck, deck%lines(card%first_line), 1_ip, 'nu [-]; a stick slope behind it as 1000.')
          if (ok .and. .not. is_empty_token(items(2))) then
-            call get_value(deck, card, items(2), 'stick slope, a real > 0 [F/L^3]', .true., interaction%stick_slope, ok)
+            call get_value(deck, items(2), 'stick slope, a real > 0 [F/L^3]', .true., interaction%stick_slope, ok)
          end if
       end if
       ! without a coefficient there are no tangential unknowns at all
@@ -153,7 +150,7 @@ contains
       call option_text(context%deck, card, 'INTERACTION', name, found, place)
       pair%interaction = find_name(context%interaction_names, name)
       if (found .and. pair%interaction == 0) call report_unknown(context, place, 'surface interaction', 'E-INTERACTION', &
-                                                                 context%interaction_names, 'CONTACT PAIR')
+                                                                 context%interaction_names)
       call read_quadrature(context%deck, card, pair%quadrature)
       call read_adjustment(context, card, pair)
       do i = card%first_line, card%first_line + card%n_lines - 1
@@ -162,8 +159,8 @@ contains
             slave = line_item(context%deck, line, 1_ip)
             master = line_item(context%deck, line, 2_ip)
          end associate
-         call find_surface(context, slave, pair%slave, 'CONTACT PAIR')
-         call find_surface(context, master, pair%master, 'CONTACT PAIR')
+         call find_surface(context, slave, pair%slave)
+         call find_surface(context, master, pair%master)
          context%pairs_undetermined = context%pairs_undetermined .or. pair%interaction == 0
          if (min(pair%interaction, pair%slave, pair%master) == 0) cycle
          n_pairs = n_pairs + 1
@@ -189,12 +186,12 @@ contains
       call option_text(deck, card, 'TYPE', word, found, place)
       word = 'TYPE='//option_word(deck, card, 'TYPE')
       if (quadrature == QUADRATURE_AUTO) then
-         call report_note(deck, place, 'N-QUADRATURE', word//' means QUADRATURE=' &
-                          //merge('NODAL ', 'MORTAR', by_type == QUADRATURE_NODAL), keyword='CONTACT PAIR')
+         call report_note(deck, place, 'N-QUADRATURE', word//' means QUADRATURE='// &
+                          merge('NODAL ', 'MORTAR', by_type == QUADRATURE_NODAL))
          quadrature = by_type
       else if (quadrature /= by_type) then
          call report_error(deck, place, 'E-QUADRATURE', word//' and QUADRATURE='//option_word(deck, card, 'QUADRATURE')// &
-                           ' are different things', expected='one of them', keyword='CONTACT PAIR')
+                           ' are different things', expected='one of them')
       end if
    end subroutine read_quadrature
 

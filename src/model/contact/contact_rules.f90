@@ -115,13 +115,13 @@ contains
       do i = card%first_line, card%first_line + card%n_lines - 1
          if (.not. context%deck%lines(i)%ok) cycle
          items = [(line_item(context%deck, context%deck%lines(i), k), k=1, 3)]
-         call find_party(card, items(1), context, ANY_BODY, groups, surface(1), ok(1))
-         call find_party(card, items(2), context, surface(1), groups, surface(2), ok(2))
+         call find_party(items(1), context, ANY_BODY, groups, surface(1), ok(1))
+         call find_party(items(2), context, surface(1), groups, surface(2), ok(2))
          value = 1
          if (keyword_name(card) == 'CONTACT PROPERTY ASSIGNMENT') then
             value = find_name(context%interaction_names, token_text(context%deck, items(3)))
             if (value == 0) call report_unknown(context, items(3), 'surface interaction', 'E-INTERACTION', &
-                                                context%interaction_names, keyword_name(card))
+                                                context%interaction_names)
          end if
          ok(3) = value > 0
          if (all(ok(:2))) then
@@ -139,8 +139,7 @@ contains
    end subroutine read_lines
 
    !> The surface that an item names, or the group of those that fit its pattern; where the item is empty, another one.
-   subroutine find_party(card, token, context, default, groups, surface, ok)
-      type(card_t), intent(in) :: card
+   subroutine find_party(token, context, default, groups, surface, ok)
       type(token_t), intent(in) :: token
       type(build_context_t), intent(in) :: context
       integer(ip), intent(in) :: default             !< of an empty item
@@ -152,11 +151,11 @@ contains
       ok = .true.
       if (is_empty_token(token)) return
       if (index(token_text(context%deck, token), '*') > 0) then
-         call find_group(context, token, keyword_name(card), groups, surface)
+         call find_group(context, token, groups, surface)
          ok = surface > 0
          return
       end if
-      call find_surface(context, token, surface, keyword_name(card))
+      call find_surface(context, token, surface)
       ok = surface > 0
       if (.not. ok) return
       associate (line => context%model%surfaces(surface))
@@ -168,10 +167,9 @@ contains
    end subroutine find_party
 
    !> The group of a name with *, a new one where it is the first of this name; 0: nothing fits, reported.
-   subroutine find_group(context, token, keyword, groups, place)
+   subroutine find_group(context, token, groups, place)
       type(build_context_t), intent(in) :: context
       type(token_t), intent(in) :: token
-      character(len=*), intent(in) :: keyword
       type(group_t), allocatable, intent(inout) :: groups(:)
       integer(ip), intent(out) :: place
       type(group_t) :: group
@@ -188,7 +186,7 @@ contains
          group%surfaces = pack([(i, i=1, size(surfaces, kind=ip))], [(surfaces(i)%kind /= SURFACE_SEGMENTS .and. &
                                                       fits_pattern(surfaces(i)%name, group%pattern), i=1, size(surfaces, kind=ip))])
          if (size(group%surfaces) == 0) then
-            call report_unknown(context, token, 'surface', 'E-SURFACE', context%surface_names, keyword)
+            call report_unknown(context, token, 'surface', 'E-SURFACE', context%surface_names)
             return
          end if
          allocate (longer(size(groups) + 1))

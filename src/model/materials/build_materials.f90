@@ -55,7 +55,8 @@ contains
             if (current == 0) cycle
             associate (deck => context%deck, material => context%model%materials(current))
                if (current == dense .and. deck%cards(i)%ok) call report_error(deck, deck%cards(i)%place, 'E-TWICE', 'material '// &
-                                          material%name//' has two *DENSITY', expected='one *DENSITY a material', keyword='DENSITY')
+                                                                              material%name//' has two *DENSITY', &
+                                                                              expected='one *DENSITY a material')
                dense = current
                call read_density_card(deck, deck%cards(i), material)
             end associate
@@ -97,11 +98,11 @@ contains
       if (card%n_lines == 0) return
       associate (line => deck%lines(card%first_line))
          if (.not. line%ok) return
-         call get_real(deck, line_item(deck, line, 1_ip), WHAT, material%density, ok, keyword='DENSITY')
-         if (ok .and. material%density < 0.0_wp) call report_error(deck, line_item(deck, line, 1_ip), 'E-VALUE', &
-                                        'the density '//to_text(material%density)//' is negative', expected=WHAT, keyword='DENSITY')
+         call get_real(deck, line_item(deck, line, 1_ip), WHAT, material%density, ok)
+         if (ok .and. material%density < 0.0_wp) call report_error(deck, line_item(deck, line, 1_ip), 'E-VALUE', 'the density '// &
+                                                                   to_text(material%density)//' is negative', expected=WHAT)
          if (ok .and. .not. is_empty_token(line_item(deck, line, 2_ip))) then
-            ok = check_comma(deck, line, 1_ip, 'mass per volume [F T^2/L^4]; a temperature behind it as 20.', 'DENSITY')
+            ok = check_comma(deck, line, 1_ip, 'mass per volume [F T^2/L^4]; a temperature behind it as 20.')
          end if
       end associate
       if (ok) call check_constant(deck, card, [material%density], 'densities', ok)
@@ -116,13 +117,12 @@ contains
       logical :: ok
 
       if (material%has_expansion .and. card%ok) call report_error(deck, card%place, 'E-TWICE', 'material '//material%name// &
-                                                   ' has two *EXPANSION', expected='one *EXPANSION a material', keyword='EXPANSION')
+                                                                  ' has two *EXPANSION', expected='one *EXPANSION a material')
       material%has_expansion = .true.
       if (card%n_lines == 0) return
       if (.not. deck%lines(card%first_line)%ok) return
-      call get_real(deck, line_item(deck, deck%lines(card%first_line), 1_ip), WHAT, material%expansion, ok, keyword='EXPANSION')
-      if (ok) ok = check_comma(deck, deck%lines(card%first_line), 1_ip, 'alpha [1/temperature]; a temperature behind it as 20.', &
-                               'EXPANSION')
+      call get_real(deck, line_item(deck, deck%lines(card%first_line), 1_ip), WHAT, material%expansion, ok)
+      if (ok) ok = check_comma(deck, deck%lines(card%first_line), 1_ip, 'alpha [1/temperature]; a temperature behind it as 20.')
       if (ok) call check_constant(deck, card, [material%expansion], 'coefficients of expansion', ok)
    end subroutine read_expansion_card
 
@@ -140,7 +140,7 @@ contains
       associate (deck => context%deck, sets => context%model%element_sets)
          call option_text(deck, card, 'ELSET', section%elset, named, elset)
          i_set = find_set(sets, section%elset)
-         if (named .and. i_set == 0) call report_unknown(context, elset, 'element set', 'E-SET', sets%names, 'SOLID SECTION')
+         if (named .and. i_set == 0) call report_unknown(context, elset, 'element set', 'E-SET', sets%names)
          ok = i_set > 0 .and. card%ok
          if (i_set == 0) context%sections_undetermined = .true.
          if (option_word(deck, card, 'FORMULATION') == 'BBAR') section%formulation = FORMULATION_BBAR
@@ -148,7 +148,7 @@ contains
          call option_text(deck, card, 'MATERIAL', material, named, place)
          section%material = find_name(context%material_names, material)
          if (named .and. section%material == 0) call report_unknown(context, place, 'material', 'E-MATERIAL', &
-                                                                    context%material_names, 'SOLID SECTION')
+                                                                    context%material_names)
          ok = ok .and. section%material > 0
          call take_orientation(card, context, section, ok)
          number = SECTION_INVALID
@@ -177,7 +177,7 @@ contains
          call option_text(context%deck, card, 'ORIENTATION', name, named, place)
          if (.not. named) return
          i = find_name(context%orientation_names, name)
-         if (i == 0) call report_unknown(context, place, 'orientation', 'E-ORIENTATION', context%orientation_names, 'SOLID SECTION')
+         if (i == 0) call report_unknown(context, place, 'orientation', 'E-ORIENTATION', context%orientation_names)
          if (i > 0) section%axis = context%orientation_axis(:, i)
          ok = ok .and. i > 0 .and. any(abs(section%axis) > 0.0_wp)
          ! Other programs print stresses along the axes of the material.
@@ -194,7 +194,7 @@ contains
       if (section%formulation /= FORMULATION_BBAR) return
       ok = .false.
       call report_error(context%deck, card%place, 'E-FORMULATION', 'FORMULATION=BBAR is for isotropic materials', &
-                        expected='FORMULATION=STANDARD for an orthotropic material', keyword='SOLID SECTION')
+                        expected='FORMULATION=STANDARD for an orthotropic material')
    end subroutine take_orientation
 
    !> The thickness in a data line. Where the nodes have it, a line with another has no effect.
@@ -210,7 +210,7 @@ contains
             good = line%ok
             if (good .and. .not. is_empty_token(line_item(deck, line, 1_ip))) then
                call get_positive(deck, line_item(deck, line, 1_ip), 'thickness, a real > 0 [L]', 'the thickness ', &
-                                 section%thickness, good, 'SOLID SECTION')
+                                 section%thickness, good)
             end if
             ok = ok .and. good
          end associate
@@ -219,7 +219,7 @@ contains
       if (.not. section%is_tapered) return
       if (abs(section%thickness - 1) > 0.0_wp) call report_note(deck, card%place, 'N-THICKNESS', 'the thickness '// &
                                                                 to_text(section%thickness)//' of the section has no effect: '// &
-                                                                'that of the nodes counts', keyword='SOLID SECTION')
+                                                                'that of the nodes counts')
       section%thickness = 1.0_wp
    end subroutine read_thickness
 
@@ -240,7 +240,7 @@ contains
          end associate
          call report_error(context%deck, place, 'E-SECTION', 'element '//ids_text(context%model%mesh%element_id(twice))// &
                            ' of set '//elset//' has a section already, from '//place_text(context%deck, earlier, place), &
-                           expected='one *SOLID SECTION for each element', keyword='SOLID SECTION')
+                           expected='one *SOLID SECTION for each element')
       end if
       context%model%section_of(elements) = number
    end subroutine assign_section
@@ -263,8 +263,7 @@ contains
       line = deck%lines(card%first_line)
       do k = 1, 2
          do i = 1, 3
-            call get_real(deck, line_item(deck, line, 3*k - 3 + i), 'coordinate, a real [L]', x(i, k), good(i, k), &
-                          keyword=ORIENTATION)
+            call get_real(deck, line_item(deck, line, 3*k - 3 + i), 'coordinate, a real [L]', x(i, k), good(i, k))
          end do
       end do
       if (.not. all(good)) return
@@ -272,7 +271,7 @@ contains
          if (abs(x(3, k)) <= FLAT*maxval(abs(x(:2, k)))) x(3, k) = 0.0_wp
          if (abs(x(3, k)) > 0.0_wp) then
             call report_error(deck, line_item(deck, line, 3*k), 'E-VALUE', 'the scene is plane: these axes leave it', &
-                              expected='za = zb = 0', keyword=ORIENTATION)
+                              expected='za = zb = 0')
             return
          end if
          if (maxval(abs(x(:, k))) > 0.0_wp) x(:, k) = x(:, k)/maxval(abs(x(:, k)))
@@ -280,18 +279,18 @@ contains
       associate (a => x(:, 1), b => x(:, 2))
          if (abs(a(1)*b(2) - a(2)*b(1)) <= 1.0e-12_wp*norm2(a)*norm2(b)) then
             call report_error(deck, line_item(deck, line, 4_ip), 'E-VALUE', 'the points give no two axes', &
-                              expected='points a and b in two directions from the origin', keyword=ORIENTATION)
+                              expected='points a and b in two directions from the origin')
             return
          end if
          turn = 0.0_wp
          if (card%n_lines > 1) then
             line = deck%lines(card%first_line + 1)
-            call get_integer(deck, line_item(deck, line, 1_ip), 'local axis, 1, 2 or 3', about, good(1, 1), keyword=ORIENTATION)
-            call get_real(deck, line_item(deck, line, 2_ip), 'angle, a real in degrees', turn, good(2, 1), 0.0_wp, ORIENTATION)
+            call get_integer(deck, line_item(deck, line, 1_ip), 'local axis, 1, 2 or 3', about, good(1, 1))
+            call get_real(deck, line_item(deck, line, 2_ip), 'angle, a real in degrees', turn, good(2, 1), 0.0_wp)
             if (.not. all(good)) return
             if (about /= 3 .and. abs(turn) > 0.0_wp) then
                call report_error(deck, line_item(deck, line, 1_ip), 'E-VALUE', 'the scene is plane: this rotation leaves it', &
-                                 expected='3, the axis across the plane', keyword=ORIENTATION)
+                                 expected='3, the axis across the plane')
                return
             end if
          end if

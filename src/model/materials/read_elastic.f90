@@ -12,7 +12,6 @@ module atrito_read_elastic
    private
    public :: read_elastic_card, get_positive, check_constant
 
-   character(len=*), parameter :: KEYWORD = 'ELASTIC'
    character(len=*), parameter :: WHAT_E = "Young's modulus E, a real > 0 [F/L^2]", &
                                   WHAT_MU = "Poisson's ratio mu, plane strain -1 < mu < 0.5, plane stress -1 < mu <= 0.5 [-]"
 
@@ -33,7 +32,7 @@ contains
 
       if (context%elastic_given(i)) then
          if (card%ok) call report_error(context%deck, card%place, 'E-TWICE', 'material '//material%name//' has two *ELASTIC', &
-                                        expected='one *ELASTIC a material', keyword=KEYWORD)
+                                        expected='one *ELASTIC a material')
          return
       end if
       context%elastic_given(i) = .true.
@@ -45,19 +44,19 @@ contains
             ratio = line_item(deck, line, 2_ip)
             context%poisson(i) = ratio
             if (.not. line%ok) return
-            call get_positive(deck, line_item(deck, line, 1_ip), WHAT_E, 'E = ', material%young, ok(1), KEYWORD)
-            call get_real(deck, ratio, WHAT_MU, material%poisson, ok(2), keyword=KEYWORD)
+            call get_positive(deck, line_item(deck, line, 1_ip), WHAT_E, 'E = ', material%young, ok(1))
+            call get_real(deck, ratio, WHAT_MU, material%poisson, ok(2))
             if (ok(2) .and. (material%poisson <= -1.0_wp .or. material%poisson > 0.5_wp)) then
                ok(2) = .false.
                call report_error(deck, ratio, 'E-VALUE', 'mu = '//to_text(material%poisson, 15)//' is out of range', &
-                                 expected=WHAT_MU, keyword=KEYWORD)
+                                 expected=WHAT_MU)
             end if
             if (all(ok) .and. index(token_text(deck, ratio), '00') == 1) then
                ok(1) = .false.
                call report_error(deck, ratio, 'E-NUMBER', token_text(deck, ratio)//' is the rest of a number with a comma in it', &
-                                 expected='E and mu, as 210000., 0.3', keyword=KEYWORD)
+                                 expected='E and mu, as 210000., 0.3')
             else if (all(ok) .and. token_text(deck, ratio) == '0') then
-               ok(1) = check_comma(deck, line, 2_ip, 'E [F/L^2], mu [-]; a temperature behind mu = 0 as 0., 20.', KEYWORD)
+               ok(1) = check_comma(deck, line, 2_ip, 'E [F/L^2], mu [-]; a temperature behind mu = 0 as 0., 20.')
             end if
             if (all(ok)) call check_constant(deck, card, [material%young, material%poisson], 'E and mu', ok(1))
             context%elastic_invalid(i) = .not. all(ok)
@@ -69,18 +68,17 @@ contains
    end subroutine read_elastic_card
 
    !> A real that must be positive.
-   subroutine get_positive(deck, token, what, name, value, ok, keyword)
+   subroutine get_positive(deck, token, what, name, value, ok)
       type(deck_t), intent(in) :: deck                 !< as read; messages name its lines
       type(token_t), intent(in) :: token               !< the item; messages point at it
       character(len=*), intent(in) :: what, name       !< what is expected, and what stands before the value in a message
       real(wp), intent(out) :: value                   !< > 0 where ok
       logical, intent(out) :: ok                       !< it is one; else that is reported
-      character(len=*), intent(in) :: keyword          !< of the card, for `atrito help KEYWORD`
 
-      call get_real(deck, token, what, value, ok, keyword=keyword)
+      call get_real(deck, token, what, value, ok)
       if (.not. ok .or. value > 0.0_wp) return
       ok = .false.
-      call report_error(deck, token, 'E-VALUE', name//to_text(value)//' is not positive', expected=what, keyword=keyword)
+      call report_error(deck, token, 'E-VALUE', name//to_text(value)//' is not positive', expected=what)
    end subroutine get_positive
 
    !> Lines for further temperatures say the same.
@@ -97,14 +95,13 @@ contains
       do k = card%first_line + 1, card%first_line + card%n_lines - 1
          if (.not. deck%lines(k)%ok) cycle
          do i = 1, size(values, kind=ip)
-            call get_real(deck, line_item(deck, deck%lines(k), i), 'a real', value, good, keyword=deck%keywords(card%keyword)%name)
+            call get_real(deck, line_item(deck, deck%lines(k), i), 'a real', value, good)
             ok = ok .and. good
             if (.not. good) cycle
             if (abs(value - values(i)) <= 0.0_wp) cycle
             ok = .false.
             call report_error(deck, line_item(deck, deck%lines(k), i), 'E-OUTSIDE', what//' that depend on the temperature are '// &
-                              'not what atrito computes', expected='one line: the values at the temperature of the step', &
-                              keyword=deck%keywords(card%keyword)%name)
+                              'not what atrito computes', expected='one line: the values at the temperature of the step')
             return
          end do
       end do
@@ -130,11 +127,11 @@ contains
       do i = 1, N_CONSTANTS
          item = line_item(deck, deck%lines(card%first_line + merge(0_ip, 1_ip, i <= N_FIRST)), merge(i, i - N_FIRST, i <= N_FIRST))
          if (.not. is_engineering) then
-            call get_real(deck, item, 'elastic constant, a real [F/L^2]', values(i), good, keyword=KEYWORD)
+            call get_real(deck, item, 'elastic constant, a real [F/L^2]', values(i), good)
          else if (i > 3 .and. i < 7) then
-            call get_real(deck, item, "Poisson's ratio, a real [-]", values(i), good, keyword=KEYWORD)
+            call get_real(deck, item, "Poisson's ratio, a real [-]", values(i), good)
          else
-            call get_positive(deck, item, 'modulus, a real > 0 [F/L^2]', 'the modulus ', values(i), good, KEYWORD)
+            call get_positive(deck, item, 'modulus, a real > 0 [F/L^2]', 'the modulus ', values(i), good)
          end if
          ok = ok .and. good
       end do
@@ -154,7 +151,7 @@ contains
       ok = is_positive_definite(s)
       if (.not. ok) then
          call report_error(deck, line_item(deck, deck%lines(card%first_line), 1_ip), 'E-VALUE', &
-                           'these constants give some strains no energy', expected=wanted, keyword=KEYWORD)
+                           'these constants give some strains no energy', expected=wanted)
          return
       end if
       material%is_orthotropic = .true.

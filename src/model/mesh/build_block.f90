@@ -40,8 +40,8 @@ contains
       ok = ok .and. named
       if (ok) call note_corners(spec%map%corners, context%model%mesh%digit_error)
       n_copies = product(int(spec%copies%n, lp))
-      if (ok) ok = fits_memory(context%deck%cards(i_card)%place, context, count_nodes(spec), product(int(spec%n, lp))* &
-                               n_copies*elements_of_square(spec%shape), 'BLOCK', spec%shape, n_copies)
+      if (ok) ok = fits_memory(context%deck%cards(i_card)%place, context, count_nodes(spec), &
+                               product(int(spec%n, lp))*n_copies*elements_of_square(spec%shape), spec%shape, n_copies)
       do j = 1, merge(spec%copies%n(2), 0_ip, ok)
          do i = 1, spec%copies%n(1)
             if (ok) call place_copy(i_card, spec, name, i, j, context, ok)
@@ -165,8 +165,7 @@ contains
 
       are_left = greatest <= huge(1_ip) - n
       if (.not. are_left) call report_error(context%deck, context%deck%cards(i_card)%place, 'E-ID', 'the '//noun// &
-                                            ' numbers of the block, which follow the greatest so far, are too large', &
-                                            keyword='BLOCK')
+                                            ' numbers of the block, which follow the greatest so far, are too large')
    end function are_numbers_left
 
    !> The middle of each square of 3 x 3 nodes, which becomes that of the side that its two triangles share: where the map of the

@@ -55,7 +55,7 @@ contains
 
       first = context%model%mesh%n_nodes + 1
       associate (card => context%deck%cards(i_card), lines => context%deck%lines)
-         fits = fits_memory(card%place, context, int(card%n_lines, lp), 0_lp, 'NODE')
+         fits = fits_memory(card%place, context, int(card%n_lines, lp), 0_lp)
          k = min(SLICE, card%n_lines)
          allocate (id(k), x(2, k), is_plain(k))
          do begin = card%first_line, card%first_line + card%n_lines - 1, SLICE
@@ -87,7 +87,7 @@ contains
 
       place = x
       if (context%deck%tokens(token)%scope > 0) place = moved(context%motions(context%deck%tokens(token)%scope), x)
-      call place_node(context, id, place, token, ok, 'NODE')
+      call place_node(context, id, place, token, ok)
    end subroutine place_moved_node
 
    !> A line of *NODE that is not just plain numbers: number, x, y[, z].
@@ -101,17 +101,17 @@ contains
       ok = line%ok
       associate (deck => context%deck)
          if (line%ok) then
-            call get_id(deck, deck%tokens(line%first_token), 'node number', id, ok(1), 'NODE')
-            call get_coordinate(deck, line_item(deck, line, 2_ip), 'x, a real [L]', x(1), ok(2), 'NODE', 0.0_wp)
-            call get_coordinate(deck, line_item(deck, line, 3_ip), 'y, a real [L]', x(2), ok(3), 'NODE', 0.0_wp)
+            call get_id(deck, deck%tokens(line%first_token), 'node number', id, ok(1))
+            call get_coordinate(deck, line_item(deck, line, 2_ip), 'x, a real [L]', x(1), ok(2), 0.0_wp)
+            call get_coordinate(deck, line_item(deck, line, 3_ip), 'y, a real [L]', x(2), ok(3), 0.0_wp)
             z = 0.0_wp
             if (line%n_tokens > 3) call get_real(deck, line_item(deck, line, 4_ip), 'z [L], which is 0 in the plane', z, ok(4), &
-                                                 0.0_wp, 'NODE')
+                                                 0.0_wp)
             if (ok(4) .and. abs(z) > 0.0_wp) then
                if (context%spread < 0.0_wp) context%spread = spread_of_nodes(deck)
                ok(4) = abs(z) <= FLAT*context%spread
                if (.not. ok(4)) call report_error(deck, line_item(deck, line, 4_ip), 'E-VALUE', 'the scene is plane: z is not 0', &
-                                                  expected='z = 0 [L], or no third coordinate', keyword='NODE')
+                                                  expected='z = 0 [L], or no third coordinate')
             end if
          end if
          if (all(ok)) then
@@ -123,13 +123,12 @@ contains
    end subroutine read_node_line
 
    !> Adds a node and keeps where it comes from; a number given twice is an error.
-   subroutine place_node(context, id, x, place, ok, keyword)
+   subroutine place_node(context, id, x, place, ok)
       type(build_context_t), intent(inout) :: context  !< its mesh gets the node
       integer(ip), intent(in) :: id                    !< > 0
       real(wp), intent(in) :: x(2)                     !< [L]
       integer(ip), intent(in) :: place                 !< token (> 0) or card (< 0) of the deck
       logical, intent(out) :: ok                       !< the number was free; else that is reported
-      character(len=*), intent(in) :: keyword          !< of the card, for `atrito help KEYWORD`
       integer(ip) :: i
       logical :: known
 
@@ -137,7 +136,7 @@ contains
       ok = .not. known
       i = context%model%mesh%n_nodes
       if (known) i = find_node(context%model%mesh, id)
-      call note_number(context%deck, context%nodes, 'node', id, i, place, known, keyword)
+      call note_number(context%deck, context%nodes, 'node', id, i, place, known)
    end subroutine place_node
 
    subroutine put_node_numbers(context, i_card, name, members)
@@ -182,7 +181,7 @@ contains
             end if
             if (.not. ok) cycle
             first_new = context%model%mesh%n_nodes + 1
-            call fill_lines(context, from, to, n, step, context%deck%lines(i)%first_token, keyword_name(card))
+            call fill_lines(context, from, to, n, step, context%deck%lines(i)%first_token)
             call add_numbers(members, from)
             call add_numbers(members, [(k, k=first_new, context%model%mesh%n_nodes)])
             call add_numbers(members, to)
@@ -203,9 +202,9 @@ contains
       logical :: good(3)
 
       allocate (from(1), to(1))
-      call find_one_node(context, context%deck%tokens(line%first_token), from(1), good(1), 'NGEN')
-      call find_one_node(context, line_item(context%deck, line, 2_ip), to(1), good(2), 'NGEN')
-      call get_integer(context%deck, line_item(context%deck, line, 3_ip), WHAT_STEP, step, good(3), 1_ip, 'NGEN')
+      call find_one_node(context, context%deck%tokens(line%first_token), from(1), good(1))
+      call find_one_node(context, line_item(context%deck, line, 2_ip), to(1), good(2))
+      call get_integer(context%deck, line_item(context%deck, line, 3_ip), WHAT_STEP, step, good(3), 1_ip)
       ok = all(good)
       if (.not. ok) return
       associate (first => context%model%mesh%node_id(from(1)), last => context%model%mesh%node_id(to(1)))
@@ -215,10 +214,9 @@ contains
          ok = n > 0 .and. n*step == apart .and. int(n, lp) <= most_nodes()
          if (.not. ok) call report_error(context%deck, line_item(context%deck, line, merge(3_ip, 2_ip, line%n_tokens > 2)), &
                                          'E-VALUE', 'steps of '//to_text(step)//' do not lead from node '//to_text(first)// &
-                                         ' to node '//to_text(last), expected='an increment that divides '//to_text(apart), &
-                                         keyword='NGEN')
+                                         ' to node '//to_text(last), expected='an increment that divides '//to_text(apart))
       end associate
-      if (ok) ok = fits_memory(context%deck%tokens(line%first_token), context, int(n, lp), 0_lp, 'NGEN')
+      if (ok) ok = fits_memory(context%deck%tokens(line%first_token), context, int(n, lp), 0_lp)
    end subroutine read_ngen_line
 
    !> Two sets of as many nodes, number of intervals, increment of the numbers, which stay positive and in the range of an integer.
@@ -233,21 +231,19 @@ contains
       logical :: good(4)
 
       associate (deck => context%deck)
-         call find_nodes(context, deck%tokens(line%first_token), from, good(1), 'NFILL')
-         call find_nodes(context, line_item(deck, line, 2_ip), to, good(2), 'NFILL')
-         call get_integer(deck, line_item(deck, line, 3_ip), WHAT, n, good(3), keyword='NFILL')
-         call get_integer(deck, line_item(deck, line, 4_ip), WHAT_STEP, step, good(4), 1_ip, 'NFILL')
+         call find_nodes(context, deck%tokens(line%first_token), from, good(1))
+         call find_nodes(context, line_item(deck, line, 2_ip), to, good(2))
+         call get_integer(deck, line_item(deck, line, 3_ip), WHAT, n, good(3))
+         call get_integer(deck, line_item(deck, line, 4_ip), WHAT_STEP, step, good(4), 1_ip)
          ok = all(good)
          if (good(3) .and. n < 1) then
             ok = .false.
-            call report_error(deck, line_item(deck, line, 3_ip), 'E-VALUE', to_text(n)//' intervals', expected=WHAT, &
-                              keyword='NFILL')
+            call report_error(deck, line_item(deck, line, 3_ip), 'E-VALUE', to_text(n)//' intervals', expected=WHAT)
          end if
          if (all(good(:2)) .and. size(from) /= size(to)) then
             ok = .false.
             call report_error(deck, line_item(deck, line, 2_ip), 'E-SET', 'the two sets have '//to_text(size(from, kind=ip))// &
-                              ' and '//to_text(size(to, kind=ip))//' nodes', expected='two node sets of as many nodes', &
-                              keyword='NFILL')
+                              ' and '//to_text(size(to, kind=ip))//' nodes', expected='two node sets of as many nodes')
          end if
          if (.not. ok) return
          reach = int(n - 1, lp)*int(step, lp)
@@ -259,19 +255,17 @@ contains
          end if
          if (.not. ok) call report_error(deck, line_item(deck, line, 3_ip), 'E-VALUE', to_text(n)//' intervals in steps of '// &
                                          to_text(step)//' lead to node numbers that cannot be', &
-                                         expected='positive node numbers, at most '//to_text(most_nodes())//' nodes', &
-                                         keyword='NFILL')
+                                         expected='positive node numbers, at most '//to_text(most_nodes())//' nodes')
       end associate
-      if (ok) ok = fits_memory(context%deck%tokens(line%first_token), context, int(n - 1, lp)*size(from, kind=lp), 0_lp, 'NFILL')
+      if (ok) ok = fits_memory(context%deck%tokens(line%first_token), context, int(n - 1, lp)*size(from, kind=lp), 0_lp)
    end subroutine read_nfill_line
 
    !> Nodes between each two, equally spaced, numbered by `step` from the first of the two.
-   subroutine fill_lines(context, from, to, n, step, place, keyword)
+   subroutine fill_lines(context, from, to, n, step, place)
       type(build_context_t), intent(inout) :: context
       integer(ip), intent(in) :: from(:), to(:)        !< places
       integer(ip), intent(in) :: n                     !< intervals
       integer(ip), intent(in) :: step, place
-      character(len=*), intent(in) :: keyword
       real(wp) :: t, x(2)
       integer(ip) :: i, k
       logical :: ok
@@ -280,7 +274,7 @@ contains
          do k = 1, n - 1
             t = real(k, wp)/real(n, wp)
             x = (1 - t)*context%model%mesh%x(:, from(i)) + t*context%model%mesh%x(:, to(i))
-            call place_node(context, context%model%mesh%node_id(from(i)) + k*step, x, place, ok, keyword)
+            call place_node(context, context%model%mesh%node_id(from(i)) + k*step, x, place, ok)
             if (.not. ok) return
          end do
       end do

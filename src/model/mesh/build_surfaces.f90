@@ -177,7 +177,7 @@ contains
          ok = i_set > 0 .or. find_set(context%model%node_sets, name) == 0
          if (.not. ok) then
             call report_error(context%deck, token, 'E-SET', name//' is a node set', &
-                              expected='an element set; or TYPE=NODE, the faces between its nodes', keyword='SURFACE')
+                              expected='an element set; or TYPE=NODE, the faces between its nodes')
             return
          end if
          if (i_set > 0 .and. .not. is_cut) then
@@ -188,8 +188,8 @@ contains
             end if
          end if
       end if
-      call find_elements(context, token, elements, ok, 'SURFACE')
-      if (ok .and. face > 0) call check_faces(context, line_item(context%deck, line, 2_ip), elements, face, 'SURFACE', ok)
+      call find_elements(context, token, elements, ok)
+      if (ok .and. face > 0) call check_faces(context, line_item(context%deck, line, 2_ip), elements, face, ok)
       if (.not. ok) return
       if (face == 0) then
          call add_faces(outer_faces(context%model%mesh, context%around, elements), 0_ip, faces)
@@ -276,7 +276,7 @@ contains
       place = line_item(context%deck, line, 2_ip)
       call report_error(context%deck, place, 'E-FACE', 'face '//token_text(context%deck, place)// &
                         ' lies inside the mesh, of element '//ids_text(ids, n), &
-                        expected='faces on the outline of the body; without a face, all of them', keyword='SURFACE')
+                        expected='faces on the outline of the body; without a face, all of them')
    end subroutine report_inside
 
    !> START, LINE and CIRCL.
@@ -302,12 +302,12 @@ contains
             word = upper_case(token_text(deck, line_item(deck, line, 1_ip)))
             is_arc = word == 'CIRCL'
             x = 0.0_wp
-            call get_point(deck, line, 2_ip, WHAT(:2), x(:2), ok, 'SURFACE')
-            if (is_arc) call get_point(deck, line, 4_ip, WHAT(3:), x(3:), ok, 'SURFACE')
+            call get_point(deck, line, 2_ip, WHAT(:2), x(:2), ok)
+            if (is_arc) call get_point(deck, line, 4_ip, WHAT(3:), x(3:), ok)
             if (i > card%first_line .and. word == 'START') then   ! that it is there once is checked by the reader
                ok = .false.
                call report_error(deck, line_item(deck, line, 1_ip), 'E-VALUE', 'START is not the first line', &
-                                 expected='START, x, y first, then LINE or CIRCL', keyword='SURFACE')
+                                 expected='START, x, y first, then LINE or CIRCL')
             end if
             if (.not. ok) cycle
             n = n + 1
@@ -316,9 +316,9 @@ contains
             associate (before => surface%points(:, n - 1))
                ok = norm2(x(:2) - before) > epsilon(1.0_wp)*(maxval(abs(before)) + maxval(abs(x(:2))))
                if (.not. ok) call report_error(deck, line_item(deck, line, 2_ip), 'E-VALUE', 'the segment has no length', &
-                                               expected='an end that differs from the one before [L]', keyword='SURFACE')
+                                               expected='an end that differs from the one before [L]')
                if (ok .and. is_arc) call centre_arc(deck, [line_item(deck, line, 4_ip), line_item(deck, line, 2_ip)], before, &
-                                                    x(:2), x(3:), ok, 'SURFACE')
+                                                    x(:2), x(3:), ok)
             end associate
             surface%is_arc(n - 1) = is_arc
             surface%centre(:, n - 1) = x(3:)
@@ -332,7 +332,7 @@ contains
       ! without START the reader has reported it
       if (.not. same_name(token_text(deck, line_item(deck, deck%lines(card%first_line), 1_ip)), 'START')) return
       call report_error(deck, card%place, 'E-MISSING', 'the surface has no segment', &
-                        expected='START, x, y and LINE, x, y or CIRCL, x, y, xc, yc [L]', keyword='SURFACE')
+                        expected='START, x, y and LINE, x, y or CIRCL, x, y, xc, yc [L]')
    end subroutine read_segments
 
 end module atrito_build_surfaces

@@ -67,7 +67,7 @@ contains
       integer :: outcome
       logical :: ok
 
-      call find_elements(context, line_item(context%deck, line, 1_ip), elements, ok, KEYWORD)
+      call find_elements(context, line_item(context%deck, line, 1_ip), elements, ok)
       if (.not. ok) return
       place = line_item(context%deck, line, 2_ip)
       word = token_text(context%deck, place)
@@ -81,8 +81,8 @@ contains
       ok = outcome == NUMBER_OK
       if (ok) ok = times >= 0 .and. times <= MOST_TIMES
       if (.not. ok) then
-         call report_error(context%deck, place, 'E-VALUE', word//' does not say how elements are cut', expected= &
-                           'how often, 0 to '//to_text(MOST_TIMES)//', or letters C and L as --adapt writes them', keyword=KEYWORD)
+         call report_error(context%deck, place, 'E-VALUE', word//' does not say how elements are cut', &
+                           expected='how often, 0 to '//to_text(MOST_TIMES)//', or letters C and L as --adapt writes them')
          return
       end if
       allocate (is_named(trees%n_roots), source=.false.)

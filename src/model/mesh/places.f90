@@ -40,7 +40,7 @@ contains
       are_places = has_option(context%deck, card, 'AT')
       call option_text(context%deck, card, 'ELSET', name, has_set, place)
       if (has_set) then
-         call find_elements(context, place, elements, ok, 'NSET')
+         call find_elements(context, place, elements, ok)
          if (ok .and. .not. are_places) call add_numbers(members, nodes_of_elements(context%model%mesh, elements))
          if (.not. ok) return
       end if
@@ -111,8 +111,8 @@ contains
       logical :: ok(2)
 
       token = line_item(context%deck, line, 1_ip)
-      call get_coordinate(context%deck, token, 'x, a real [L]', x(1), ok(1), 'NSET')
-      call get_coordinate(context%deck, line_item(context%deck, line, 2_ip), 'y, a real [L]', x(2), ok(2), 'NSET')
+      call get_coordinate(context%deck, token, 'x, a real [L]', x(1), ok(1))
+      call get_coordinate(context%deck, line_item(context%deck, line, 2_ip), 'y, a real [L]', x(2), ok(2))
       if (.not. all(ok) .or. size(finder%node) == 0) return   ! without elements the deck is refused
       if (scope > 0) x = moved(context%motions(scope), x)
       associate (mesh => context%model%mesh)
@@ -124,13 +124,13 @@ contains
                   to_text(way, DIGITS)//' from there'
          if (way > half*(1 + SAME)) then
             call report_error(context%deck, token, 'E-PLACE', stands, expected='a place within half an element, '// &
-                              to_text(half, DIGITS)//', of a node [L]', keyword='NSET')
+                              to_text(half, DIGITS)//', of a node [L]')
          else if (twin > 0) then
             call report_error(context%deck, token, 'E-PLACE', 'nodes '//to_text(mesh%node_id(finder%node(k)))//' and '// &
                               to_text(mesh%node_id(finder%node(twin)))//' both stand there', &
-                              expected='ELSET=, which says of which elements', keyword='NSET')
+                              expected='ELSET=, which says of which elements')
          else
-            if (way > SAME*half) call report_note(context%deck, token, 'N-PLACE', stands, keyword='NSET')
+            if (way > SAME*half) call report_note(context%deck, token, 'N-PLACE', stands)
             call add_range(members, finder%node(k), finder%node(k))
          end if
       end associate

@@ -80,12 +80,12 @@ contains
       ok = mod(line%n_tokens, 2_ip) == 0 .and. line%n_tokens <= MOST_ITEMS
       if (.not. ok) then
          call report_error(deck, line_item(deck, line, min(line%n_tokens, MOST_ITEMS + 1)), 'E-ITEMS', to_text(line%n_tokens)// &
-                           ' items are no pairs of time and value', expected=WHAT_LINE, keyword='AMPLITUDE')
+                           ' items are no pairs of time and value', expected=WHAT_LINE)
          return
       end if
       do i = 1, line%n_tokens, 2
-         call get_real(deck, line_item(deck, line, i), WHAT_TIME, time, good(1), keyword='AMPLITUDE')
-         call get_real(deck, line_item(deck, line, i + 1), 'value, a real [-]', value, good(2), keyword='AMPLITUDE')
+         call get_real(deck, line_item(deck, line, i), WHAT_TIME, time, good(1))
+         call get_real(deck, line_item(deck, line, i + 1), 'value, a real [-]', value, good(2))
          if (good(1)) call check_time(deck, line_item(deck, line, i), time, amplitude%time(:n), good(1))
          ok = ok .and. all(good)
          if (.not. all(good)) cycle
@@ -109,8 +109,7 @@ contains
          ok = time > earlier(size(earlier))
          wrong = ' does not come after '//to_text(earlier(size(earlier)))
       end if
-      if (.not. ok) call report_error(deck, token, 'E-VALUE', 'the time '//to_text(time)//wrong, expected=WHAT_TIME, &
-                                      keyword='AMPLITUDE')
+      if (.not. ok) call report_error(deck, token, 'E-VALUE', 'the time '//to_text(time)//wrong, expected=WHAT_TIME)
    end subroutine check_time
 
    !> The amplitude that a card names becomes that of its lines; 0 where it is unknown, which is reported.
@@ -125,8 +124,7 @@ contains
       call option_text(context%deck, card, 'AMPLITUDE', name, found, place)
       if (.not. found) return
       context%open%amplitude = find_name(context%amplitude_names, name)
-      if (context%open%amplitude == 0) call report_unknown(context, place, 'amplitude', 'E-AMPLITUDE', context%amplitude_names, &
-                                                           keyword_name(card))
+      if (context%open%amplitude == 0) call report_unknown(context, place, 'amplitude', 'E-AMPLITUDE', context%amplitude_names)
    end subroutine take_amplitude
 
    !> What holds in every step follows no amplitude, and there is nothing before it that it could remove.
@@ -139,11 +137,11 @@ contains
       if (.not. card%ok) return
       call find_option(deck, card, 'AMPLITUDE', option, found)
       if (found) call report_error(deck, option%name, 'E-LEVEL', 'AMPLITUDE= before *STEP, where all displacements are 0', &
-                                   expected='AMPLITUDE= in a step', keyword=keyword_name(card))
+                                   expected='AMPLITUDE= in a step')
       call find_option(deck, card, 'OP', option, found)
       if (found .and. option_word(deck, card, 'OP') == 'NEW') then
          call report_error(deck, option%name, 'E-LEVEL', 'OP=NEW before *STEP, where there is nothing to remove', &
-                           expected='OP=NEW in a step', keyword=keyword_name(card))
+                           expected='OP=NEW in a step')
       end if
    end subroutine refuse_step_options
 

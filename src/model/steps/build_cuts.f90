@@ -17,7 +17,6 @@ module atrito_build_cuts
    private
    public :: read_cut_card, place_cuts
 
-   character(len=*), parameter :: KEYWORD = 'SECTION PRINT'
    character(len=2), parameter :: ITEMS(4) = ['x1', 'y1', 'x2', 'y2']
    integer, parameter :: DIGITS = 6                     !< of coordinates in messages
 
@@ -64,7 +63,7 @@ contains
       integer(ip) :: k
 
       do k = 1, 4
-         call get_real(context%deck, line_item(context%deck, line, k), ITEMS(k)//', a real [L]', x(k), good(k), keyword=KEYWORD)
+         call get_real(context%deck, line_item(context%deck, line, k), ITEMS(k)//', a real [L]', x(k), good(k))
       end do
       ok = all(good)
       if (.not. ok) return
@@ -72,7 +71,7 @@ contains
       if (any(ends(:, 1) /= ends(:, 2))) return
       ok = .false.
       call report_error(context%deck, line_item(context%deck, line, 3_ip), 'E-VALUE', 'both points of the cut are the same', &
-                        expected='x1, y1, x2, y2: two points of a line through a body [L]', keyword=KEYWORD)
+                        expected='x1, y1, x2, y2: two points of a line through a body [L]')
    end subroutine read_line
 
    !> Finds where the cuts go through the bodies. The mesh is complete.
@@ -107,7 +106,7 @@ contains
             k = findloc(crossings%is_taken .and. .not. crossings%is_whole, .true., dim=1, kind=ip)
             call report_error(context%deck, context%drawn_cuts%items(i), 'E-CROSSING', 'cut '//cut%name//' ends within body '// &
                               bodies%list(crossings(k)%body)%name, expected='a line through the whole of '// &
-                              span_text(context, bodies, i, crossings(k)), keyword=KEYWORD)
+                              span_text(context, bodies, i, crossings(k)))
          else
             call warn_of_several(context, bodies, i, pack(crossings, crossings%is_taken))
          end if
@@ -134,7 +133,7 @@ contains
                    ' and '//point_text(maxval(mesh%x(:, :mesh%n_nodes), dim=2))
          end if
       end associate
-      call report_error(context%deck, context%drawn_cuts%items(i), 'E-CROSSING', text, expected=hint, keyword=KEYWORD)
+      call report_error(context%deck, context%drawn_cuts%items(i), 'E-CROSSING', text, expected=hint)
    end subroutine report_miss
 
    !> `BODY from (x, y) to (x, y)`.
@@ -175,17 +174,16 @@ contains
                       ' to '//bodies%list(taken(size(taken))%body)%name
             end if
             call report_warning(context%deck, item, 'W-CROSSING', text//': n, v and m are those of all together', &
-                                expected='a shorter line, or ELSET=, for one of them', keyword=KEYWORD)
+                                expected='a shorter line, or ELSET=, for one of them')
          end if
          if (.not. all(taken%is_all_wanted)) then
             call report_warning(context%deck, item, 'W-CROSSING', 'cut '//cut%name//' goes through elements of '// &
-                                context%model%element_sets%sets(cut%elset)%name//' and of others: it counts as a whole', &
-                                keyword=KEYWORD)
+                                context%model%element_sets%sets(cut%elset)%name//' and of others: it counts as a whole')
          end if
          if (any(taken%kind /= INSIDE)) then
             call report_note(context%deck, item, 'N-EDGE', 'cut '//cut%name//' runs along the edge of '// &
                              bodies%list(taken(findloc(taken%kind /= INSIDE, .true., dim=1))%body)%name// &
-                             ': what acts on the edge is told', keyword=KEYWORD)
+                             ': what acts on the edge is told')
          end if
       end associate
    end subroutine warn_of_several

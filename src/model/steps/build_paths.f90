@@ -14,7 +14,6 @@ module atrito_build_paths
    private
    public :: read_path_card, place_paths
 
-   character(len=*), parameter :: KEYWORD = 'PATH PRINT'
    character(len=*), parameter :: WHAT_POINTS = 'points on the path, 2 to 100000'
    integer(ip), parameter :: MOST_POINTS = 100000
    real(wp), parameter :: DEGREE = acos(-1.0_wp)/180.0_wp
@@ -73,7 +72,7 @@ contains
       good = .true.
       do k = 1, line%n_tokens
          call get_real(context%deck, line_item(context%deck, line, k), trim(merge(OF_ARC(k), OF_LINE(k), path%is_arc))// &
-                       ', a real', x(k), good(k), keyword=KEYWORD)
+                       ', a real', x(k), good(k))
       end do
       ok = all(good)
       if (.not. ok) return
@@ -92,8 +91,7 @@ contains
          wrong = 'both ends of the path are the same'
          expected = 'x1, y1, x2, y2: two points [L]'
       end if
-      if (.not. ok) call report_error(context%deck, line_item(context%deck, line, 3_ip), 'E-VALUE', wrong, expected=expected, &
-                                      keyword=KEYWORD)
+      if (.not. ok) call report_error(context%deck, line_item(context%deck, line, 3_ip), 'E-VALUE', wrong, expected=expected)
    end subroutine read_line
 
    !> Finds the elements that hold the points of the paths. The mesh is complete.
@@ -146,11 +144,10 @@ contains
             call find_nearest(model%mesh, wanted, x(:, 1), near, distance)
             call report_error(context%deck, context%drawn_paths%items(i), 'E-PATH', 'path '//path%name//' is '//text// &
                               '; its first point is '//to_text(distance, 3)//' from the nearest', &
-                              expected='a line or an arc through a body', keyword=KEYWORD)
+                              expected='a line or an arc through a body')
          else if (n_out > 0) then
             call report_note(context%deck, context%drawn_paths%items(i), 'N-PATH', to_text(n_out)//' of the '// &
-                             to_text(path%n_points)//' points of path '//path%name//' are '//text//': they have no rows', &
-                             keyword=KEYWORD)
+                             to_text(path%n_points)//' points of path '//path%name//' are '//text//': they have no rows')
          end if
          path%s = s(places%point)
          path%x = x(:, places%point)

@@ -119,12 +119,10 @@ contains
       if (.not. found) return
       call find_option(deck, card, 'FREQUENCY', option, found)
       if (n < 1) then
-         call report_error(deck, option%value, 'E-VALUE', 'FREQUENCY = '//to_text(n)//' is out of range', expected=WHAT, &
-                           keyword=keyword_name(card))
+         call report_error(deck, option%value, 'E-VALUE', 'FREQUENCY = '//to_text(n)//' is out of range', expected=WHAT)
       else if (every > 0 .and. every /= n) then
          call report_error(deck, option%value, 'E-CONFLICT', 'FREQUENCY = '//to_text(n)//' here, but '//to_text(every)// &
-                           ' before in this step', expected='one FREQUENCY= for a table, and for the field file, in a step', &
-                           keyword=keyword_name(card))
+                           ' before in this step', expected='one FREQUENCY= for a table, and for the field file, in a step')
       else
          every = n
       end if
@@ -221,7 +219,7 @@ contains
          call find_option(context%deck, context%deck%cards(i), 'RELAXATION', option, found)
          if (.not. found) cycle
          call report_error(context%deck, option%name, 'E-CONFLICT', 'RELAXATION= is for METHOD=PICARD; the method here is '// &
-                           trim(METHOD_NAME(controls%method)), expected='METHOD=PICARD, or no RELAXATION=', keyword='CONTROLS')
+                           trim(METHOD_NAME(controls%method)), expected='METHOD=PICARD, or no RELAXATION=')
       end do
    end subroutine check_relaxation
 
@@ -290,7 +288,7 @@ contains
          case ('NODE FILE', 'EL FILE', 'CONTACT FILE', 'RESTART')
             call report_error(deck, deck%cards(i)%place, 'E-NOT-BUILT', '*'//keyword_name(deck%cards(i))// &
                               ': this build of atrito has no HDF5', expected='an atrito built with -DATRITO_HDF5=ON, or no *'// &
-                              keyword_name(deck%cards(i)), keyword=keyword_name(deck%cards(i)))
+                              keyword_name(deck%cards(i)))
          end select
       end do
    end subroutine refuse_field_files
@@ -312,8 +310,8 @@ contains
       call option_text(context%deck, card, option, name, given, place)
       allocate (chosen(n), source=.not. given)
       if (.not. given) return
-      if (option == 'NSET') call find_nodes(context, place, members, ok, keyword_name(card))
-      if (option == 'ELSET') call find_elements(context, place, members, ok, keyword_name(card))
+      if (option == 'NSET') call find_nodes(context, place, members, ok)
+      if (option == 'ELSET') call find_elements(context, place, members, ok)
       chosen(members) = .true.
    end subroutine choose_members
 

@@ -98,8 +98,7 @@ contains
       if (.not. found .or. model%asks_nlgeom) return
       model%asks_nlgeom = option_word(deck, card, 'NLGEOM') == 'YES'
       if (model%asks_nlgeom) call report_warning(deck, option%name, 'W-NLGEOM', 'small displacements are solved, not large '// &
-                                                 'ones; at the end W-LARGE tells where that matters, or N-SMALL that it does not', &
-                                                 keyword='STEP')
+                                                 'ones; at the end W-LARGE tells where that matters, or N-SMALL that it does not')
    end subroutine read_nlgeom
 
    !> Without a data line the step is one increment, which is not cut.
@@ -112,8 +111,7 @@ contains
       associate (card => deck%cards(i))
          if (first > 0 .and. card%ok) then
             call report_error(deck, card%place, 'E-TWICE', 'the step has two *STATIC, the first in '// &
-                              place_text(deck, deck%cards(first)%place, card%place), expected='one *STATIC in a step', &
-                              keyword='STATIC')
+                              place_text(deck, deck%cards(first)%place, card%place), expected='one *STATIC in a step')
             return
          end if
          if (first == 0) first = i
@@ -147,7 +145,7 @@ contains
          call get_time(deck, line, 4_ip, WHAT_GREATEST, merge(this%initial, this%period, reaches_end), this%greatest, ok(4))
          if (ok(4) .and. this%initial > this%greatest) then      ! it is the greatest, as in CalculiX
             call report_note(deck, line_item(deck, line, 4_ip), 'N-INCREMENT', 'the first increment, '//to_text(this%initial)// &
-                             ', is longer than the greatest, '//to_text(this%greatest)//', and becomes it')
+                             ', is longer than the greatest, '//to_text(this%greatest)//', and becomes it', keyword='')
             this%initial = this%greatest
          end if
          call get_time(deck, line, 3_ip, WHAT_LEAST, min(this%initial, LEAST_PART*this%period), this%least, ok(3))
@@ -165,7 +163,7 @@ contains
       real(wp), intent(out) :: time
       logical, intent(out) :: ok
 
-      call get_real(deck, line_item(deck, line, item), what, time, ok, default, 'STATIC')
+      call get_real(deck, line_item(deck, line, item), what, time, ok, default)
       if (ok) call check_time(deck, line, item, time >= 0.0_wp, time, what, ok)
       if (ok .and. .not. time > 0.0_wp) time = default
    end subroutine get_time
@@ -181,7 +179,7 @@ contains
 
       ok = in_range
       if (.not. ok) call report_error(deck, line_item(deck, line, item), 'E-VALUE', to_text(time)//' is out of range', &
-                                      expected=what, keyword='STATIC')
+                                      expected=what)
    end subroutine check_time
 
    !> DIRECT: all increments are like the first, whatever the least and the greatest are said to be.
@@ -193,7 +191,7 @@ contains
       do i = 3, line%n_tokens
          if (is_empty_token(line_item(deck, line, i))) cycle
          call report_note(deck, line_item(deck, line, i), 'N-IGNORED', 'with DIRECT all increments are like the first: no '// &
-                          'least or greatest')
+                          'least or greatest', keyword='')
          return
       end do
    end subroutine note_direct
@@ -210,11 +208,11 @@ contains
       call find_option(deck, card, 'READ', option, found)
       if (found) then
          call report_error(deck, option%name, 'E-NOT-BUILT', 'a deck does not say where it goes on', &
-                           expected='atrito --restart FILE, with the whole deck', keyword='RESTART')
+                           expected='atrito --restart FILE, with the whole deck')
          return
       else if (.not. has_option(deck, card, 'WRITE')) then
          call report_error(deck, card%place, 'E-OPTION-MISSING', '*RESTART needs the option WRITE', &
-                           expected='*RESTART, WRITE; to go on: atrito --restart FILE', keyword='RESTART')
+                           expected='*RESTART, WRITE; to go on: atrito --restart FILE')
          return
       end if
       model%restart_every = 1

@@ -61,7 +61,7 @@ contains
       if (ok) return
       call report_error(context%deck, place, 'E-TWICE', trim(drawn%what)//' '//name//' is defined already in this step, in '// &
                         place_text(context%deck, drawn%items(drawn%n_before + before), place), &
-                        expected='another NAME=, or all lines in one card', keyword=card%name)
+                        expected='another NAME=, or all lines in one card')
    end subroutine name_line
 
    !> Counts a line in, with its name and its first item. There is room for one of each line of the deck's cards of this kind.

@@ -64,7 +64,7 @@ contains
             call option_text(context%deck, card, 'OP', word, found, place)
             call report_error(context%deck, place, 'E-CONFLICT', '*'//keyword//' has '//trim(merge('OP=NEW', 'OP=MOD', is_new))// &
                               ' here, but '//trim(merge('OP=MOD', 'OP=NEW', is_new))//' before in this step', &
-                              expected='the same OP= for all *'//keyword//' of a step; MOD when left out', keyword=keyword)
+                              expected='the same OP= for all *'//keyword//' of a step; MOD when left out')
          end associate
       end do
    end function removes_all
@@ -206,8 +206,7 @@ contains
                                 'that in '//place_text(deck, deck%tokens(deck%lines(old)%first_token), &
                                                        deck%tokens(deck%lines(new)%first_token))//', which acts '// &
                                 trim(merge('about another axis     ', 'along another direction', label == 'CENTRIF')), &
-                                expected='both lines in this step, if both are to act; OP=NEW, if not', &
-                                keyword=trim(merge('DSLOAD', 'DLOAD ', label == 'TRVEC')))
+                                expected='both lines in this step, if both are to act; OP=NEW, if not')
          end associate
       end do
    end subroutine warn_of_replaced

@@ -22,43 +22,41 @@ module atrito_coordinates
 contains
 
    !> The reals that some items of a line are, one after the other: values(i) is item first + i - 1.
-   subroutine get_reals(deck, line, first, what, values, ok, keyword, defaults)
+   subroutine get_reals(deck, line, first, what, values, ok, defaults)
       type(deck_t), intent(in) :: deck                 !< as read; messages name its lines
       type(data_line_t), intent(in) :: line            !< data line of the deck
       integer(ip), intent(in) :: first                 !< item
       character(len=*), intent(in) :: what             !< each is, e.g. 'coordinate, a real [L]'
       real(wp), intent(out) :: values(:)               !< as many as there are items
       logical, intent(out) :: ok                       !< all of them are reals; what is not is reported
-      character(len=*), intent(in) :: keyword          !< of the card, for `atrito help KEYWORD`
       real(wp), intent(in), optional :: defaults(:)    !< of empty items
       logical :: good(size(values))
       integer(ip) :: i
 
       do i = 1, size(values, kind=ip)
          if (present(defaults)) then
-            call get_real(deck, line_item(deck, line, first + i - 1), what, values(i), good(i), defaults(i), keyword)
+            call get_real(deck, line_item(deck, line, first + i - 1), what, values(i), good(i), defaults(i))
          else
-            call get_real(deck, line_item(deck, line, first + i - 1), what, values(i), good(i), keyword=keyword)
+            call get_real(deck, line_item(deck, line, first + i - 1), what, values(i), good(i))
          end if
       end do
       ok = all(good)
    end subroutine get_reals
 
    !> The coordinate that an item is.
-   subroutine get_coordinate(deck, token, what, x, ok, keyword, default)
+   subroutine get_coordinate(deck, token, what, x, ok, default)
       type(deck_t), intent(in) :: deck                 !< as read; messages name its lines
       type(token_t), intent(in) :: token               !< the item; messages point at it
       character(len=*), intent(in) :: what             !< e.g. 'x, a real [L]'
       real(wp), intent(out) :: x                       !< [L]; what get_real leaves where it is no real
       logical, intent(out) :: ok                       !< it is a real within LARGEST_COORDINATE; else that is reported
-      character(len=*), intent(in) :: keyword          !< of the card, for `atrito help KEYWORD`
       real(wp), intent(in), optional :: default        !< of an empty item [L]
 
-      call get_real(deck, token, what, x, ok, default, keyword)
+      call get_real(deck, token, what, x, ok, default)
       if (.not. ok .or. is_coordinate(x)) return
       ok = .false.
       call report_error(deck, token, 'E-VALUE', 'a coordinate of '//to_text(x), expected=what//', at most '// &
-                        to_text(LARGEST_COORDINATE), keyword=keyword)
+                        to_text(LARGEST_COORDINATE))
    end subroutine get_coordinate
 
    !> Whether a number may be one.
@@ -94,48 +92,45 @@ contains
    end function spread_of_nodes
 
    !> Two items of a line that are the coordinates of a point.
-   subroutine get_point(deck, line, first, what, x, ok, keyword)
+   subroutine get_point(deck, line, first, what, x, ok)
       type(deck_t), intent(in) :: deck                 !< as read; messages name its lines
       type(data_line_t), intent(in) :: line            !< data line of the deck
       integer(ip), intent(in) :: first                 !< item
       character(len=*), intent(in) :: what(2)          !< what is expected
       real(wp), intent(out) :: x(2)                    !< [L]
       logical, intent(inout) :: ok                     !< false where there is an error
-      character(len=*), intent(in) :: keyword          !< of the card, for `atrito help KEYWORD`
       integer(ip) :: k
       logical :: good
 
       do k = 1, 2
-         call get_coordinate(deck, line_item(deck, line, first + k - 1), trim(what(k)), x(k), good, keyword)
+         call get_coordinate(deck, line_item(deck, line, first + k - 1), trim(what(k)), x(k), good)
          ok = ok .and. good
       end do
    end subroutine get_point
 
    !> The centre is as far from both ends, within the digits of a deck, and moved so that it is exactly; the arc is less than a half
    !> circle, else it could run on either side.
-   subroutine centre_arc(deck, tokens, a, b, centre, ok, keyword)
+   subroutine centre_arc(deck, tokens, a, b, centre, ok)
       type(deck_t), intent(in) :: deck                 !< as read; messages name its lines
       type(token_t), intent(in) :: tokens(2)           !< of the centre, and of the arc
       real(wp), intent(in) :: a(2), b(2)               !< ends [L]
       real(wp), intent(inout) :: centre(2)             !< [L]
       logical, intent(out) :: ok                       !< it is such an arc; else that is reported
-      character(len=*), intent(in) :: keyword          !< of the card, for `atrito help KEYWORD`
       real(wp) :: chord(2), middle(2), radius(2)
 
       radius = [norm2(a - centre), norm2(b - centre)]
       ok = abs(radius(1) - radius(2)) <= RADIUS_TOLERANCE*maxval(radius)
       if (.not. ok) then
-         call report_error(deck, tokens(1), 'E-VALUE', 'the centre is '//to_text(radius(1))// &
-                           ' from the start of the arc and '//to_text(radius(2))//' from its end', &
-                           expected='a centre as far from both ends, within 1e-4 [L]', keyword=keyword)
+         call report_error(deck, tokens(1), 'E-VALUE', 'the centre is '//to_text(radius(1))//' from the start of the arc and '// &
+                           to_text(radius(2))//' from its end', expected='a centre as far from both ends, within 1e-4 [L]')
          return
       end if
       chord = (b - a)/norm2(b - a)
       middle = 0.5_wp*a + 0.5_wp*b
       centre = centre - dot_product(centre - middle, chord)*chord
       ok = norm2(centre - middle) > RADIUS_TOLERANCE*maxval(radius)
-      if (.not. ok) call report_error(deck, tokens(2), 'E-VALUE', 'the arc is a half circle, which could '// &
-                                      'run on either side', expected='arcs of less than 180 degrees', keyword=keyword)
+      if (.not. ok) call report_error(deck, tokens(2), 'E-VALUE', 'the arc is a half circle, which could '//'run on either side', &
+                                      expected='arcs of less than 180 degrees')
    end subroutine centre_arc
 
 end module atrito_coordinates

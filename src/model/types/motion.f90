@@ -43,31 +43,28 @@ contains
    end function turned
 
    !> A line of a translation.
-   subroutine read_shift(deck, line, keyword, motion, ok)
+   subroutine read_shift(deck, line, motion, ok)
       type(deck_t), intent(in) :: deck               !< as read; messages name its lines
       type(data_line_t), intent(in) :: line          !< data line: dx, dy and, if given, dz = 0
-      character(len=*), intent(in) :: keyword        !< of the card, for `atrito help KEYWORD`
       type(motion_t), intent(inout) :: motion        !< its shift is set
       logical, intent(out) :: ok                     !< the translation lies in the plane; else that is reported
       real(wp) :: z
       logical :: good(3)
 
-      call get_coordinate(deck, line_item(deck, line, 1_ip), 'translation along x, a real [L]', motion%shift(1), good(1), keyword)
-      call get_coordinate(deck, line_item(deck, line, 2_ip), 'translation along y, a real [L]', motion%shift(2), good(2), keyword)
-      call get_coordinate(deck, line_item(deck, line, 3_ip), 'translation along z, 0 [L]', z, good(3), keyword, 0.0_wp)
+      call get_coordinate(deck, line_item(deck, line, 1_ip), 'translation along x, a real [L]', motion%shift(1), good(1))
+      call get_coordinate(deck, line_item(deck, line, 2_ip), 'translation along y, a real [L]', motion%shift(2), good(2))
+      call get_coordinate(deck, line_item(deck, line, 3_ip), 'translation along z, 0 [L]', z, good(3), 0.0_wp)
       ok = all(good)
       if (.not. ok .or. abs(z) <= FLAT*maxval(abs(motion%shift))) return
       ok = abs(z) <= FLAT*spread_of_nodes(deck)
       if (.not. ok) call report_error(deck, line_item(deck, line, 3_ip), 'E-VALUE', &
-                                      'the scene is plane: the translation along z is not 0', &
-                                      expected='0 [L], or no third item', keyword=keyword)
+                                      'the scene is plane: the translation along z is not 0', expected='0 [L], or no third item')
    end subroutine read_shift
 
    !> The axis stands upright on the plane; the angle is positive round its direction.
-   subroutine read_rotation(deck, line, keyword, times, motion, ok)
+   subroutine read_rotation(deck, line, times, motion, ok)
       type(deck_t), intent(in) :: deck               !< as read; messages name its lines
       type(data_line_t), intent(in) :: line          !< data line: two points of the axis, then the angle
-      character(len=*), intent(in) :: keyword        !< of the card, for `atrito help KEYWORD`
       real(wp), intent(in) :: times                  !< how often it is done
       type(motion_t), intent(inout) :: motion        !< its centre and angle are set, where ok
       logical, intent(out) :: ok                     !< the axis stands upright; else that is reported
@@ -77,16 +74,16 @@ contains
 
       ok = .true.
       do k = 1, 6
-         call get_coordinate(deck, line_item(deck, line, k), 'coordinate of the axis, a real [L]', axis(k), good, keyword)
+         call get_coordinate(deck, line_item(deck, line, k), 'coordinate of the axis, a real [L]', axis(k), good)
          ok = ok .and. good
       end do
-      call get_real(deck, line_item(deck, line, 7_ip), 'angle, a real [degrees]', angle, good, keyword=keyword)
+      call get_real(deck, line_item(deck, line, 7_ip), 'angle, a real [degrees]', angle, good)
       ok = ok .and. good
       if (.not. ok) return
       ok = all(abs(axis(4:5) - axis(1:2)) <= FLAT*abs(axis(6) - axis(3))) .and. abs(axis(6) - axis(3)) > 0.0_wp
       if (.not. ok) then
          call report_error(deck, line_item(deck, line, 1_ip), 'E-VALUE', 'the axis does not stand upright on the plane', &
-                           expected='xa, ya, za, xb, yb, zb with xb = xa, yb = ya, zb other than za [L]', keyword=keyword)
+                           expected='xa, ya, za, xb, yb, zb with xb = xa, yb = ya, zb other than za [L]')
          return
       end if
       motion%centre = axis(1:2)
