@@ -278,7 +278,8 @@ contains
          error%line = one%line%line
          error%source = one%line%text
          error%skipped = one%line%column - 1
-         error%column = error%column + one%line%column - 1 + index(one%line%text, '=')
+         error%column = error%column + index(one%line%text, '=')          ! 0: the line has neither a place nor an =
+         if (error%column > 0) error%column = error%column + one%line%column - 1
          error%keyword = 'OBSERVE'
       else if (error%column > 0) then
          error%text = error%text//', column '//to_text(error%column)
