@@ -43,7 +43,7 @@ contains
          if (card%changes_model) then
             order%parent = CHANGED
          else
-            call follow_meaning(deck, order, card)
+            call follow_meaning()
          end if
          return
       end if
@@ -65,47 +65,44 @@ contains
                                                                           '*STEP before it')
          order%in_step = .false.
       case default
-         call check_level(deck, order, card)
+         call check_level()
       end select
       call check_parent(deck, order, card)
       if (card%ok) call check_parts(deck, order%parts, card)
+
+   contains
+
+      !> A misspelt keyword is reported; what would only follow from it is not.
+      subroutine follow_meaning()
+         character(len=:), allocatable :: name
+         integer :: i
+
+         name = trim(card%meant)
+         if (len(name) == 0) return
+         if (name == 'STEP') order%lost_step = .true.
+         if (name == 'END STEP') order%in_step = .false.
+         do i = 1, size(deck%keywords)
+            if (deck%keywords(i)%parent == name) order%parent = LOST
+         end do
+      end subroutine follow_meaning
+
+      subroutine check_level()
+         integer :: level
+
+         level = deck%keywords(card%keyword)%level
+         if (follows_only(deck, order, card)) then
+            card%ok = .false.
+         else if (order%n_steps > 0 .and. .not. order%in_step) then
+            call refuse_card(deck, card, 'E-STEP', '*'//trim(card%name)//' stands after an *END STEP', &
+                             'a *STEP, or nothing behind it')
+         else if (level == LEVEL_MODEL .and. order%in_step .and. .not. is_removal(deck, card)) then
+            call refuse_card(deck, card, 'E-LEVEL', '*'//trim(card%name)//' stands inside the step', 'its place before *STEP')
+         else if (level == LEVEL_STEP .and. .not. order%in_step) then
+            call refuse_card(deck, card, 'E-LEVEL', '*'//trim(card%name)//' stands outside of a step', &
+                             'its place between *STEP and *END STEP')
+         end if
+      end subroutine check_level
    end subroutine check_order
-
-   !> A misspelt keyword is reported; what would only follow from it is not.
-   subroutine follow_meaning(deck, order, card)
-      type(deck_t), intent(in) :: deck
-      type(order_t), intent(inout) :: order
-      type(card_t), intent(in) :: card
-      character(len=:), allocatable :: name
-      integer :: i
-
-      name = trim(card%meant)
-      if (len(name) == 0) return
-      if (name == 'STEP') order%lost_step = .true.
-      if (name == 'END STEP') order%in_step = .false.
-      do i = 1, size(deck%keywords)
-         if (deck%keywords(i)%parent == name) order%parent = LOST
-      end do
-   end subroutine follow_meaning
-
-   subroutine check_level(deck, order, card)
-      type(deck_t), intent(in) :: deck
-      type(order_t), intent(in) :: order
-      type(card_t), intent(inout) :: card
-      integer :: level
-
-      level = deck%keywords(card%keyword)%level
-      if (follows_only(deck, order, card)) then
-         card%ok = .false.
-      else if (order%n_steps > 0 .and. .not. order%in_step) then
-         call refuse_card(deck, card, 'E-STEP', '*'//trim(card%name)//' stands after an *END STEP', 'a *STEP, or nothing behind it')
-      else if (level == LEVEL_MODEL .and. order%in_step .and. .not. is_removal(deck, card)) then
-         call refuse_card(deck, card, 'E-LEVEL', '*'//trim(card%name)//' stands inside the step', 'its place before *STEP')
-      else if (level == LEVEL_STEP .and. .not. order%in_step) then
-         call refuse_card(deck, card, 'E-LEVEL', '*'//trim(card%name)//' stands outside of a step', &
-                          'its place between *STEP and *END STEP')
-      end if
-   end subroutine check_level
 
    !> REMOVE, which is reported by itself: no step changes the model.
    pure logical function is_removal(deck, card)

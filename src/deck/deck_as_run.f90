@@ -30,7 +30,7 @@ contains
       files(1)%text%words%n = deck%edits%words%n
       if (deck%edits%words%n > 0) call move_alloc(deck%edits%words%letters, files(1)%text%words%letters)
       edit = 1
-      call put_source(deck, 1_ip, edit, files(1)%text)
+      call put_source(1_ip, files(1)%text)
       allocate (files(1)%text%texts(deck%n_sources))
       n = 1
       do i = 1, deck%n_sources
@@ -47,6 +47,51 @@ contains
             call move_alloc(deck%sources(i)%text, files(1)%text%texts(i)%s)
          end if
       end do
+
+   contains
+
+      !> A file of the deck, with what it includes.
+      recursive subroutine put_source(source, patched)
+         integer(ip), intent(in) :: source
+         type(patched_text_t), intent(inout) :: patched
+         integer(ip) :: position, child, last
+
+         last = len(deck%sources(source)%text, kind=ip)
+         position = after_mark(deck%sources(source)%text)
+         child = next_child(deck, source, source)
+         do while (child > 0)
+            associate (included => deck%sources(child))
+               call put_edited(source, included%include_first - 1, position, patched)
+               call put_source(child, patched)
+               ! What follows an included file begins a line.
+               if (len(included%text) /= 0) then
+                  if (included%text(len(included%text):) /= LINE_FEED) call append_words(patched, LINE_FEED)
+               end if
+               position = included%include_last + 1
+            end associate
+            child = next_child(deck, source, child)
+         end do
+         call put_edited(source, last, position, patched)
+      end subroutine put_source
+
+      !> The characters of a file up to `last`, with the edits among them.
+      subroutine put_edited(source, last, position, patched)
+         integer(ip), intent(in) :: source, last
+         integer(ip), intent(inout) :: position           !< the first character that is left
+         type(patched_text_t), intent(inout) :: patched
+
+         do while (edit <= deck%edits%n)
+            associate (one => deck%edits%list(edit))
+               if (one%source /= source .or. one%first > last) exit
+               call append_place(patched, source, position, one%first - 1)
+               call append_place(patched, merge(UNCOUNTED, OWN_WORDS, one%is_name), one%from, one%to)
+               position = one%last + 1
+            end associate
+            edit = edit + 1
+         end do
+         call append_place(patched, source, position, last)
+         position = max(position, last + 1)
+      end subroutine put_edited
    end subroutine take_deck_as_run
 
    !> The first character behind the line by which a deck says so.
@@ -58,32 +103,6 @@ contains
       position = position + index(text(position:)//LINE_FEED, LINE_FEED, kind=ip)
    end function after_mark
 
-   !> A file of the deck, with what it includes.
-   recursive subroutine put_source(deck, source, edit, patched)
-      type(deck_t), intent(in) :: deck
-      integer(ip), intent(in) :: source
-      integer(ip), intent(inout) :: edit               !< the next one
-      type(patched_text_t), intent(inout) :: patched
-      integer(ip) :: position, child, last
-
-      last = len(deck%sources(source)%text, kind=ip)
-      position = after_mark(deck%sources(source)%text)
-      child = next_child(deck, source, source)
-      do while (child > 0)
-         associate (included => deck%sources(child))
-            call put_edited(deck, source, included%include_first - 1, position, edit, patched)
-            call put_source(deck, child, edit, patched)
-            ! What follows an included file begins a line.
-            if (len(included%text) /= 0) then
-               if (included%text(len(included%text):) /= LINE_FEED) call append_words(patched, LINE_FEED)
-            end if
-            position = included%include_last + 1
-         end associate
-         child = next_child(deck, source, child)
-      end do
-      call put_edited(deck, source, last, position, edit, patched)
-   end subroutine put_source
-
    !> The next file, not a mesh, that one includes; 0: there is none.
    pure integer(ip) function next_child(deck, source, before) result(child)
       type(deck_t), intent(in) :: deck
@@ -94,26 +113,5 @@ contains
       end do
       child = 0
    end function next_child
-
-   !> The characters of a file up to `last`, with the edits among them.
-   subroutine put_edited(deck, source, last, position, edit, patched)
-      type(deck_t), intent(in) :: deck
-      integer(ip), intent(in) :: source, last
-      integer(ip), intent(inout) :: position           !< the first character that is left
-      integer(ip), intent(inout) :: edit
-      type(patched_text_t), intent(inout) :: patched
-
-      do while (edit <= deck%edits%n)
-         associate (one => deck%edits%list(edit))
-            if (one%source /= source .or. one%first > last) exit
-            call append_place(patched, source, position, one%first - 1)
-            call append_place(patched, merge(UNCOUNTED, OWN_WORDS, one%is_name), one%from, one%to)
-            position = one%last + 1
-         end associate
-         edit = edit + 1
-      end do
-      call append_place(patched, source, position, last)
-      position = max(position, last + 1)
-   end subroutine put_edited
 
 end module atrito_deck_as_run

@@ -71,76 +71,66 @@ contains
       end if
       associate (text => deck%sources(token%source)%text(token%first:token%last))
          if (index(text, '<') /= 1 .and. index(text, '-<') /= 1) then   ! value_of_expression checks the rest
-            call number_of_text(deck, token, text, what, is_whole, value, ok, keyword)
+            call number_of_text(text)
             return
          end if
       end associate
-      call value_of_expression(deck, token, what, value, ok, keyword)
+      call value_of_expression()
       if (.not. (ok .and. is_whole)) return
       ok = abs(value) <= real(huge(1_ip), wp) .and. abs(value - anint(value)) <= ROUND_OFF*abs(value)
       if (ok) value = anint(value)
       if (ok) return
       call report_error(deck, token, 'E-INTEGER', token_text(deck, token)//' is '//to_text(value)//', not an integer', &
                         expected=what, keyword=keyword)
+
+   contains
+
+      subroutine number_of_text(text)
+         character(len=*), intent(in) :: text
+         character(len=:), allocatable :: noun
+         integer(ip) :: i
+         integer :: outcome
+
+         if (is_whole) then
+            call read_integer(text, i, outcome)
+            value = real(i, wp)
+         else
+            call read_real(text, value, outcome)
+         end if
+         ok = outcome == NUMBER_OK
+         if (ok) return
+         noun = trim(merge('an integer', 'a real    ', is_whole))
+         select case (outcome)
+         case (NUMBER_TOO_LARGE)
+            call report_error(deck, token, 'E-NUMBER', text//' is too large for '//noun, expected=what, keyword=keyword)
+         case (NUMBER_NOT_INTEGER)
+            call report_error(deck, token, 'E-INTEGER', text//' is a real', expected=what, keyword=keyword)
+         case default
+            if (.not. is_whole) noun = 'a number'
+            call report_error(deck, token, 'E-NUMBER', "'"//text//"' is not "//noun, expected=what, keyword=keyword)
+         end select
+      end subroutine number_of_text
+
+      !> The value of `<expression>` or `-<expression>`; of a name alone it is that of the parameter.
+      subroutine value_of_expression()
+         character(len=:), allocatable :: text
+         type(token_t) :: place
+
+         value = 0.0_wp
+         text = token_text(deck, token)
+         place = part_of(deck, token, token%first + merge(2, 1, text(1:1) == '-'), token%last - 1)
+         ok = .not. is_empty_token(place) .and. text(len(text):) == '>'
+         if (.not. ok) then
+            call report_error(deck, token, 'E-NUMBER', "'"//text//"' is neither a number nor <expression> of parameters", &
+                              expected=what, keyword=keyword)
+         else if (is_own_name(deck, place)) then
+            call value_of_parameter(deck, place, what, value, ok)
+         else
+            call evaluate_at(deck, place, value, ok)
+         end if
+         if (ok .and. text(1:1) == '-') value = -value
+      end subroutine value_of_expression
    end subroutine get_number
-
-   subroutine number_of_text(deck, token, text, what, is_whole, value, ok, keyword)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: token
-      character(len=*), intent(in) :: text, what
-      logical, intent(in) :: is_whole
-      real(wp), intent(out) :: value
-      logical, intent(out) :: ok
-      character(len=*), intent(in), optional :: keyword
-      character(len=:), allocatable :: noun
-      integer(ip) :: i
-      integer :: outcome
-
-      if (is_whole) then
-         call read_integer(text, i, outcome)
-         value = real(i, wp)
-      else
-         call read_real(text, value, outcome)
-      end if
-      ok = outcome == NUMBER_OK
-      if (ok) return
-      noun = trim(merge('an integer', 'a real    ', is_whole))
-      select case (outcome)
-      case (NUMBER_TOO_LARGE)
-         call report_error(deck, token, 'E-NUMBER', text//' is too large for '//noun, expected=what, keyword=keyword)
-      case (NUMBER_NOT_INTEGER)
-         call report_error(deck, token, 'E-INTEGER', text//' is a real', expected=what, keyword=keyword)
-      case default
-         if (.not. is_whole) noun = 'a number'
-         call report_error(deck, token, 'E-NUMBER', "'"//text//"' is not "//noun, expected=what, keyword=keyword)
-      end select
-   end subroutine number_of_text
-
-   !> The value of `<expression>` or `-<expression>`; of a name alone it is that of the parameter.
-   subroutine value_of_expression(deck, token, what, value, ok, keyword)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: token
-      character(len=*), intent(in) :: what
-      real(wp), intent(out) :: value
-      logical, intent(out) :: ok
-      character(len=*), intent(in), optional :: keyword
-      character(len=:), allocatable :: text
-      type(token_t) :: place
-
-      value = 0.0_wp
-      text = token_text(deck, token)
-      place = part_of(deck, token, token%first + merge(2, 1, text(1:1) == '-'), token%last - 1)
-      ok = .not. is_empty_token(place) .and. text(len(text):) == '>'
-      if (.not. ok) then
-         call report_error(deck, token, 'E-NUMBER', "'"//text//"' is neither a number nor <expression> of parameters", &
-                           expected=what, keyword=keyword)
-      else if (is_own_name(deck, place)) then
-         call value_of_parameter(deck, place, what, value, ok)
-      else
-         call evaluate_at(deck, place, value, ok)
-      end if
-      if (ok .and. text(1:1) == '-') value = -value
-   end subroutine value_of_expression
 
    !> A name alone that is no constant of the expressions.
    pure logical function is_own_name(deck, place)

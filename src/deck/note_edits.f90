@@ -111,11 +111,68 @@ contains
          associate (line => deck%lines(i))
             do k = 1, min(line%n_tokens, first - 1)
                if (.not. is_bracketed(deck, deck%tokens(line%first_token + k - 1))) cycle
-               call note_item(deck, card, line, k)
+               call note_item(line)
             end do
-            if (line%n_tokens >= first) call note_function(deck, line, first)
+            if (line%n_tokens >= first) call note_function(line, first)
          end associate
       end do
+
+   contains
+
+      !> The k-th item of a line, unless it is a name.
+      subroutine note_item(line)
+         type(data_line_t), intent(in) :: line
+         logical :: is_name, is_whole
+         integer :: f, i
+
+         is_name = .true.
+         is_whole = .true.
+         associate (forms => deck%keywords(card%keyword)%forms)
+            do f = 1, size(forms)
+               if (size(forms(f)%items) == 0 .or. .not. form_applies(deck, card, forms(f))) cycle
+               if (len(forms(f)%word) > 0) then               ! it begins with that word
+                  if (.not. same_name(forms(f)%word, token_text(deck, deck%tokens(line%first_token)))) cycle
+               end if
+               i = min(int(k) - merge(1, 0, len(forms(f)%word) > 0), size(forms(f)%items))  ! the last item may be repeated
+               select case (forms(f)%items(max(1, i))%kind)
+               case (KIND_NAME)
+                  cycle
+               case (KIND_INTEGER, KIND_ID, KIND_ID_OR_NAME)
+                  is_name = .false.
+               case (KIND_TEXT)                        ! further terms of an equation: node, dof, coefficient
+                  is_name = .false.
+                  is_whole = is_whole .and. mod(k, 3_ip) /= 0
+               case default
+                  is_name = .false.
+                  is_whole = .false.
+               end select
+            end do
+         end associate
+         if (.not. is_name) call note_value(deck, deck%tokens(line%first_token + k - 1), is_whole)
+      end subroutine note_item
+
+      !> The names of parameters in an expression of x and y; a value below 0 stands in parentheses, for a power of it.
+      subroutine note_function(line, k)
+         type(data_line_t), intent(in) :: line
+         integer(ip), intent(in) :: k                     !< its first item
+         character(len=:), allocatable :: text, value
+         integer(ip) :: i
+         integer :: first, last
+
+         associate (token => deck%tokens(line%first_token + k - 1), end => deck%tokens(line%first_token + line%n_tokens - 1)%last)
+            text = deck%sources(token%source)%text(token%first:end)
+            last = 0
+            do
+               call next_name(text, last, first)
+               if (first > len(text)) exit
+               i = index_of_parameter(deck, text(first:last))
+               if (i == 0) cycle
+               value = exact_text(deck%parameters(i)%value)
+               if (value(1:1) == '-') value = '('//value//')'
+               call append_edit(deck%edits, token%source, token%first + first - 1, token%first + last - 1, value)
+            end do
+         end associate
+      end subroutine note_function
    end subroutine note_lines
 
    !> The item at which a function begins: the last of its form. Beyond all items where there is none.
@@ -146,41 +203,6 @@ contains
       end associate
    end function is_bracketed
 
-   !> The k-th item of a line, unless it is a name.
-   subroutine note_item(deck, card, line, k)
-      type(deck_t), intent(inout) :: deck
-      type(card_t), intent(in) :: card
-      type(data_line_t), intent(in) :: line
-      integer(ip), intent(in) :: k
-      logical :: is_name, is_whole
-      integer :: f, i
-
-      is_name = .true.
-      is_whole = .true.
-      associate (forms => deck%keywords(card%keyword)%forms)
-         do f = 1, size(forms)
-            if (size(forms(f)%items) == 0 .or. .not. form_applies(deck, card, forms(f))) cycle
-            if (len(forms(f)%word) > 0) then               ! it begins with that word
-               if (.not. same_name(forms(f)%word, token_text(deck, deck%tokens(line%first_token)))) cycle
-            end if
-            i = min(int(k) - merge(1, 0, len(forms(f)%word) > 0), size(forms(f)%items))  ! the last item may be repeated
-            select case (forms(f)%items(max(1, i))%kind)
-            case (KIND_NAME)
-               cycle
-            case (KIND_INTEGER, KIND_ID, KIND_ID_OR_NAME)
-               is_name = .false.
-            case (KIND_TEXT)                        ! further terms of an equation: node, dof, coefficient
-               is_name = .false.
-               is_whole = is_whole .and. mod(k, 3_ip) /= 0
-            case default
-               is_name = .false.
-               is_whole = .false.
-            end select
-         end do
-      end associate
-      if (.not. is_name) call note_value(deck, deck%tokens(line%first_token + k - 1), is_whole)
-   end subroutine note_item
-
    !> `<expression>` or `-<expression>` becomes a number that reads as the same value.
    subroutine note_value(deck, token, is_whole)
       type(deck_t), intent(inout) :: deck
@@ -210,29 +232,5 @@ contains
       if (is_whole) value = anint(value)
       call append_known_edit(deck%edits, text, token%source, token%first, token%last, exact_text(value))
    end subroutine note_value
-
-   !> The names of parameters in an expression of x and y; a value below 0 stands in parentheses, for a power of it.
-   subroutine note_function(deck, line, k)
-      type(deck_t), intent(inout) :: deck
-      type(data_line_t), intent(in) :: line
-      integer(ip), intent(in) :: k                     !< its first item
-      character(len=:), allocatable :: text, value
-      integer(ip) :: i
-      integer :: first, last
-
-      associate (token => deck%tokens(line%first_token + k - 1), end => deck%tokens(line%first_token + line%n_tokens - 1)%last)
-         text = deck%sources(token%source)%text(token%first:end)
-         last = 0
-         do
-            call next_name(text, last, first)
-            if (first > len(text)) exit
-            i = index_of_parameter(deck, text(first:last))
-            if (i == 0) cycle
-            value = exact_text(deck%parameters(i)%value)
-            if (value(1:1) == '-') value = '('//value//')'
-            call append_edit(deck%edits, token%source, token%first + first - 1, token%first + last - 1, value)
-         end do
-      end associate
-   end subroutine note_function
 
 end module atrito_note_edits

@@ -87,9 +87,27 @@ contains
                end if
             end associate
          end do
-         call collect_behind(mesh, around, section)
+         call collect_behind(section)
       end subroutine collect_parts
 
+      !> The elements behind the line round the shared nodes, each once.
+      pure subroutine collect_behind(section)
+         type(cross_section_t), intent(inout) :: section
+         logical :: is_in(mesh%n_elements)
+         integer(ip) :: i, k
+
+         is_in = .false.
+         allocate (section%behind(0))
+         do i = 1, size(section%shared, kind=ip)
+            do k = around%first(section%shared(i)), around%first(section%shared(i) + 1) - 1
+               associate (e => around%list(k))
+                  if (is_in(e) .or. is_ahead(mesh, section%line, e)) cycle
+                  is_in(e) = .true.
+                  section%behind = [section%behind, e]
+               end associate
+            end do
+         end do
+      end subroutine collect_behind
    end subroutine find_cross_section
 
    !> Edges count where their body is not crossed; those of bodies ahead, which lie against what is behind, where there is nothing
@@ -170,26 +188,5 @@ contains
       section%node = [section%node, node]
       section%share = [section%share, share]
    end subroutine add_share
-
-   !> The elements behind the line round the shared nodes, each once.
-   pure subroutine collect_behind(mesh, around, section)
-      type(mesh_t), intent(in) :: mesh
-      type(node_elements_t), intent(in) :: around
-      type(cross_section_t), intent(inout) :: section
-      logical :: is_in(mesh%n_elements)
-      integer(ip) :: i, k
-
-      is_in = .false.
-      allocate (section%behind(0))
-      do i = 1, size(section%shared, kind=ip)
-         do k = around%first(section%shared(i)), around%first(section%shared(i) + 1) - 1
-            associate (e => around%list(k))
-               if (is_in(e) .or. is_ahead(mesh, section%line, e)) cycle
-               is_in(e) = .true.
-               section%behind = [section%behind, e]
-            end associate
-         end do
-      end do
-   end subroutine collect_behind
 
 end module atrito_cross_section

@@ -39,33 +39,30 @@ contains
          ok = .false.
          call report_error(deck, token, 'E-ID', to_text(id)//' is not positive', expected=expected)
       else if (ok .and. allocated(deck%scopes)) then
-         call take_scope(deck, token, what, id, ok)
+         call take_scope()
       end if
+
+   contains
+
+      !> The number in the model of a node or element of an instance, or of the assembly.
+      subroutine take_scope()
+         character(len=:), allocatable :: noun
+
+         associate (scope => deck%scopes(token%scope))
+            ok = scope%ok                                 ! if not, that is reported
+            if (.not. ok) return
+            ok = id <= scope%span
+            if (ok) then
+               id = id + scope%shift
+               return
+            end if
+         end associate
+         noun = 'node'
+         if (index(what, noun) == 0) noun = 'element'
+         call report_error(deck, token, 'E-'//upper_case(noun), noun//' '//to_text(id)//scope_text(deck, token)// &
+                           ' does not exist', expected=what//scope_text(deck, token)//scope_hint(deck, token))
+      end subroutine take_scope
    end subroutine get_id
-
-   !> The number in the model of a node or element of an instance, or of the assembly.
-   subroutine take_scope(deck, token, what, id, ok)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: token
-      character(len=*), intent(in) :: what
-      integer(ip), intent(inout) :: id
-      logical, intent(out) :: ok
-      character(len=:), allocatable :: noun
-
-      associate (scope => deck%scopes(token%scope))
-         ok = scope%ok                                 ! if not, that is reported
-         if (.not. ok) return
-         ok = id <= scope%span
-         if (ok) then
-            id = id + scope%shift
-            return
-         end if
-      end associate
-      noun = 'node'
-      if (index(what, noun) == 0) noun = 'element'
-      call report_error(deck, token, 'E-'//upper_case(noun), noun//' '//to_text(id)//scope_text(deck, token)//' does not exist', &
-                        expected=what//scope_text(deck, token)//scope_hint(deck, token))
-   end subroutine take_scope
 
    !> Outside of parts a bare number is that of the assembly.
    pure function scope_hint(deck, token) result(text)

@@ -44,57 +44,51 @@ contains
          fault%text = name//' has a value at each contact point'
          fault%expected = 'max('//name//', pair), min(...) or mean(...)'
       else if (index_of(pair_quantity_list(), name) > 0) then
-         call find_of_pair(model, call, TERM_PAIR, index_of(pair_quantity_list(), name), term, fault)
+         call find_of_pair(TERM_PAIR, index_of(pair_quantity_list(), name))
       else if (any(ZONE_FIELDS == name)) then
-         call find_of_pair(model, call, TERM_ZONE, findloc(ZONE_FIELDS == name, .true., dim=1), term, fault)
+         call find_of_pair(TERM_ZONE, findloc(ZONE_FIELDS == name, .true., dim=1))
       else
-         call find_of_step(model, call, name, term, fault)
+         call find_of_step(name)
       end if
+
+   contains
+
+      !> A quantity of the step, or the time.
+      subroutine find_of_step(name)
+         character(len=*), intent(in) :: name
+         integer :: i
+
+         term%field = index_of(all_step_quantities(), name)
+         term%kind = merge(TERM_STEP, TERM_TIME, term%field > 0)
+         if (term%field == 0 .and. name /= TIME_NAME) then
+            fault%length = len(call%name, kind=ip)
+            fault%text = 'unknown quantity '//call%name
+            fault%expected = 'u2(node), s11(x, y), rf1(set), mean(mises, set), a quantity of summary.tab, a parameter of '// &
+                             'the deck, a function'
+            fault%known = observable_names()
+            do i = 1, size(model%parameters)
+               call append_string(fault%known, model%parameters(i)%name)
+            end do
+         else if (call%has_parentheses) then
+            fault%text = call%name//' is one number of the step'
+            fault%expected = call%name//' without parentheses'
+         end if
+      end subroutine find_of_step
+
+      !> `max_pressure`, `max_pressure(2)` or `contact_half_width(2)`.
+      subroutine find_of_pair(kind, field)
+         integer, intent(in) :: kind, field             !< TERM_PAIR or TERM_ZONE
+
+         term%kind = kind
+         term%field = field
+         if (call%has_parentheses .and. size(call%arguments) /= 1) then
+            call complain_of_count(call, call%name//'(pair), pair being its number or its slave', fault)
+         else
+            call find_pair(model, call, 1, term%pair, fault)
+            if (.not. allocated(fault%text)) term%nu = model%interactions(model%pairs(term%pair)%interaction)%nu
+         end if
+      end subroutine find_of_pair
    end subroutine find_term
-
-   !> A quantity of the step, or the time.
-   subroutine find_of_step(model, call, name, term, fault)
-      type(model_t), intent(in) :: model
-      type(call_t), intent(in) :: call
-      character(len=*), intent(in) :: name
-      type(term_t), intent(inout) :: term
-      type(message_t), intent(inout) :: fault
-      integer :: i
-
-      term%field = index_of(all_step_quantities(), name)
-      term%kind = merge(TERM_STEP, TERM_TIME, term%field > 0)
-      if (term%field == 0 .and. name /= TIME_NAME) then
-         fault%length = len(call%name, kind=ip)
-         fault%text = 'unknown quantity '//call%name
-         fault%expected = 'u2(node), s11(x, y), rf1(set), mean(mises, set), a quantity of summary.tab, a parameter of '// &
-                          'the deck, a function'
-         fault%known = observable_names()
-         do i = 1, size(model%parameters)
-            call append_string(fault%known, model%parameters(i)%name)
-         end do
-      else if (call%has_parentheses) then
-         fault%text = call%name//' is one number of the step'
-         fault%expected = call%name//' without parentheses'
-      end if
-   end subroutine find_of_step
-
-   !> `max_pressure`, `max_pressure(2)` or `contact_half_width(2)`.
-   subroutine find_of_pair(model, call, kind, field, term, fault)
-      type(model_t), intent(in) :: model
-      type(call_t), intent(in) :: call
-      integer, intent(in) :: kind, field             !< TERM_PAIR or TERM_ZONE
-      type(term_t), intent(inout) :: term
-      type(message_t), intent(inout) :: fault
-
-      term%kind = kind
-      term%field = field
-      if (call%has_parentheses .and. size(call%arguments) /= 1) then
-         call complain_of_count(call, call%name//'(pair), pair being its number or its slave', fault)
-      else
-         call find_pair(model, call, 1, term%pair, fault)
-         if (.not. allocated(fault%text)) term%nu = model%interactions(model%pairs(term%pair)%interaction)%nu
-      end if
-   end subroutine find_of_pair
 
    !> The pair that an argument names, or the only one.
    subroutine find_pair(model, call, i, pair, fault)

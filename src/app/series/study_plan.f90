@@ -52,13 +52,13 @@ contains
       integer :: i, equals, outcome
 
       call find_observed(command, observed)
-      call list_references(command, observed, list)
+      call list_references(list)
       allocate (study%quantities(size(list)))
       do i = 1, size(list)
          associate (quantity => study%quantities(i))
             equals = index(list(i)%s, '=')
             quantity%name = observation_name(list(i)%s)
-            call check_name(quantity%name, observed, status)
+            call check_name(quantity%name)
             if (.not. is_ok(status)) return
             if (equals == 0) cycle
             quantity%is_given = .true.
@@ -69,46 +69,44 @@ contains
             return
          end associate
       end do
-   end subroutine choose_quantities
 
-   !> The references, then what is observed and not among them; without any reference the energy and the resultants last.
-   subroutine list_references(command, observed, list)
-      type(command_t), intent(in) :: command
-      type(string_t), intent(in) :: observed(:)     !< names of *OBSERVE and --observe
-      type(string_t), allocatable, intent(out) :: list(:)
-      integer :: i, k
+   contains
 
-      list = command%references
-      do i = 1, size(observed)
-         do k = 1, size(command%references)
-            if (observation_name(command%references(k)%s) == observed(i)%s) exit
+      !> The references, then what is observed and not among them; without any reference the energy and the resultants last.
+      subroutine list_references(list)
+         type(string_t), allocatable, intent(out) :: list(:)
+         integer :: i, k
+
+         list = command%references
+         do i = 1, size(observed)
+            do k = 1, size(command%references)
+               if (observation_name(command%references(k)%s) == observed(i)%s) exit
+            end do
+            if (k > size(command%references)) call append_string(list, observed(i)%s)
          end do
-         if (k > size(command%references)) call append_string(list, observed(i)%s)
-      end do
-      if (size(command%references) > 0) return
-      call append_string(list, 'strain_energy')
-      call append_string(list, 'normal_resultant')
-   end subroutine list_references
+         if (size(command%references) > 0) return
+         call append_string(list, 'strain_energy')
+         call append_string(list, 'normal_resultant')
+      end subroutine list_references
 
-   subroutine check_name(name, observed, status)
-      character(len=*), intent(in) :: name
-      type(string_t), intent(in) :: observed(:)     !< names of *OBSERVE and --observe
-      type(status_t), intent(inout) :: status
-      type(string_t), allocatable :: names(:), near(:)
-      character(len=:), allocatable :: text
-      integer :: i
+      subroutine check_name(name)
+         character(len=*), intent(in) :: name
+         type(string_t), allocatable :: names(:), near(:)
+         character(len=:), allocatable :: text
+         integer :: i
 
-      names = quantity_names()
-      do i = 1, size(observed)
-         call append_string(names, observed(i)%s)
-      end do
-      do i = 1, size(names)
-         if (names(i)%s == name) return
-      end do
-      text = '--reference '//name//': summary.tab has no such quantity'
-      near = nearest_names(name, names, 3)
-      if (size(near) > 0) text = text//'; nearest: '//join(near, ', ')
-      call set_status(status, STATUS_USAGE, text)
-   end subroutine check_name
+         names = quantity_names()
+         do i = 1, size(observed)
+            call append_string(names, observed(i)%s)
+         end do
+         do i = 1, size(names)
+            if (names(i)%s == name) return
+         end do
+         text = '--reference '//name//': summary.tab has no such quantity'
+         near = nearest_names(name, names, 3)
+         if (size(near) > 0) text = text//'; nearest: '//join(near, ', ')
+         call set_status(status, STATUS_USAGE, text)
+      end subroutine check_name
+   end subroutine choose_quantities
 
 end module atrito_study_plan

@@ -146,45 +146,58 @@ contains
       do while (first <= len(text))
          last = first + index(text(first:), NEW_LINE_CHARACTER) - 2
          if (last < first - 1) exit                  ! a line that is not complete
-         call take_line(journal, plan, text(first:last), run, is_done, outcomes_of)
+         call take_line(text(first:last))
          first = last + 2
       end do
-   end subroutine find_done
 
-   !> A line of the journal; one that is not of this sweep is passed over.
-   subroutine take_line(journal, plan, line, run, is_done, outcomes_of)
-      type(sweep_journal_t), intent(in) :: journal
-      type(sweep_plan_t), intent(in) :: plan
-      character(len=*), intent(in) :: line
-      integer(ip), intent(inout) :: run              !< of the line before; of this one
-      logical, intent(inout) :: is_done(:)
-      integer, intent(inout) :: outcomes_of(:, :)
-      character(len=:), allocatable :: rest, digest
-      integer :: i
-      logical :: ok
+   contains
 
-      rest = line
-      ok = next_word(rest) == journal%key
-      select case (next_word(rest))
-      case (BEGUN)
-         call find_run(plan, rest, run, ok)          ! of another key, too: the folder has other files then
-         if (ok) is_done(run) = .false.
-      case (DONE)
-         if (.not. ok) return
-         outcome: block
-            integer :: found(OUTCOMES)
-            do i = 1, OUTCOMES
-               call take_number(next_word(rest), found(i), ok)
-               if (.not. ok) return
-            end do
-            digest = next_word(rest)
-            call find_run(plan, rest, run, ok)
+      !> A line of the journal; one that is not of this sweep is passed over.
+      subroutine take_line(line)
+         character(len=*), intent(in) :: line
+         character(len=:), allocatable :: rest, digest
+         integer :: i
+         logical :: ok
+
+         rest = line
+         ok = next_word(rest) == journal%key
+         select case (next_word(rest))
+         case (BEGUN)
+            call find_run(rest, run, ok) ! of another key, too: the folder has other files then
+            if (ok) is_done(run) = .false.
+         case (DONE)
             if (.not. ok) return
-            is_done(run) = digest == digest_of_summary(journal, plan, run, found)
-            outcomes_of(:, run) = found
-         end block outcome
-      end select
-   end subroutine take_line
+            outcome: block
+               integer :: found(OUTCOMES)
+               do i = 1, OUTCOMES
+                  call take_number(next_word(rest), found(i), ok)
+                  if (.not. ok) return
+               end do
+               digest = next_word(rest)
+               call find_run(rest, run, ok)
+               if (.not. ok) return
+               is_done(run) = digest == digest_of_summary(journal, plan, run, found)
+               outcomes_of(:, run) = found
+            end block outcome
+         end select
+      end subroutine take_line
+
+      !> The run of a name, looked for from the one of the line before on.
+      pure subroutine find_run(name, run, found)
+         character(len=*), intent(in) :: name
+         integer(ip), intent(inout) :: run
+         logical, intent(out) :: found
+         integer(ip) :: i, place
+
+         found = .false.
+         do i = 0, plan%n_runs - 1
+            place = modulo(run - 1 + i, plan%n_runs) + 1
+            found = name_of(plan, place) == name
+            if (found) exit
+         end do
+         if (found) run = place
+      end subroutine find_run
+   end subroutine find_done
 
    !> Takes the first word off.
    function next_word(rest) result(word)
@@ -208,22 +221,5 @@ contains
       ok = outcome == NUMBER_OK
       number = merge(int(found), 0, ok)
    end subroutine take_number
-
-   !> The run of a name, looked for from the one of the line before on.
-   pure subroutine find_run(plan, name, run, found)
-      type(sweep_plan_t), intent(in) :: plan
-      character(len=*), intent(in) :: name
-      integer(ip), intent(inout) :: run
-      logical, intent(out) :: found
-      integer(ip) :: i, place
-
-      found = .false.
-      do i = 0, plan%n_runs - 1
-         place = modulo(run - 1 + i, plan%n_runs) + 1
-         found = name_of(plan, place) == name
-         if (found) exit
-      end do
-      if (found) run = place
-   end subroutine find_run
 
 end module atrito_sweep_journal

@@ -35,10 +35,10 @@ contains
 
       select case (card%name)
       case ('PART', 'INSTANCE')
-         call check_assembly(deck, parts, card)
-         call open_block(deck, parts, card)
+         call check_assembly()
+         call open_block()
       case ('ASSEMBLY')
-         call refuse_nesting(deck, parts, card)
+         call refuse_nesting()
          if (parts%in_assembly .and. card%ok) call refuse_card(deck, card, 'E-PART', '*ASSEMBLY inside the assembly', &
                                                                'one *ASSEMBLY')
          parts%in_assembly = .true.
@@ -46,7 +46,7 @@ contains
       case ('END PART', 'END INSTANCE')
          call close_block(deck, parts, card)
       case ('END ASSEMBLY')
-         call refuse_nesting(deck, parts, card)
+         call refuse_nesting()
          if (.not. (parts%in_assembly .or. parts%is_loose)) then
             call refuse_card(deck, card, 'E-PART', '*END ASSEMBLY without an *ASSEMBLY', '*ASSEMBLY before it')
          end if
@@ -64,6 +64,47 @@ contains
          call refuse_card(deck, card, 'E-PART', '*'//trim(card%name)//' stands inside '//open_text(parts), &
                           'its place outside of parts and instances, which hold nodes, elements, sets, surfaces and sections')
       end select
+
+   contains
+
+      !> A part stands outside of the assembly, an instance in it.
+      subroutine check_assembly()
+
+         call refuse_nesting()
+         if (.not. card%ok) then
+            return
+         else if (card%name == 'PART' .and. parts%in_assembly) then
+            call refuse_card(deck, card, 'E-PART', '*PART inside the assembly', 'its place before *ASSEMBLY')
+         else if (card%name == 'INSTANCE' .and. .not. (parts%in_assembly .or. parts%is_loose)) then
+            call refuse_card(deck, card, 'E-PART', '*INSTANCE outside of an assembly', &
+                             'its place between *ASSEMBLY and *END ASSEMBLY')
+            parts%is_loose = .true.
+         end if
+      end subroutine check_assembly
+
+      subroutine open_block()
+         integer :: i
+
+         parts%n_blocks = parts%n_blocks + 1
+         parts%in_block = .true.
+         parts%is_told = .false.
+         parts%block = card%name(:len(parts%block))
+         parts%block_place = card%place
+         card%block = parts%n_blocks
+         parts%name = 'it'
+         do i = 1, size(card%options)                 ! they have not been looked up in the table yet
+            if (.not. same_name(token_text(deck, card%options(i)%name), 'NAME')) cycle
+            parts%name = token_text(deck, card%options(i)%value)
+         end do
+      end subroutine open_block
+
+      !> Nothing of this kind may stand inside a part or an instance, which ends here.
+      subroutine refuse_nesting()
+
+         if (parts%in_block .and. .not. parts%is_told) call refuse_card(deck, card, 'E-PART', '*'//trim(card%name)//' inside '// &
+                                                                        open_text(parts), '*END '//trim(parts%block)//' before it')
+         parts%in_block = .false.
+      end subroutine refuse_nesting
    end subroutine check_parts
 
    !> At the end of the model: all is closed. What is open is reported where it was opened.
@@ -82,42 +123,6 @@ contains
       end if
    end subroutine check_open_parts
 
-   !> A part stands outside of the assembly, an instance in it.
-   subroutine check_assembly(deck, parts, card)
-      type(deck_t), intent(in) :: deck
-      type(parts_t), intent(inout) :: parts
-      type(card_t), intent(inout) :: card
-
-      call refuse_nesting(deck, parts, card)
-      if (.not. card%ok) then
-         return
-      else if (card%name == 'PART' .and. parts%in_assembly) then
-         call refuse_card(deck, card, 'E-PART', '*PART inside the assembly', 'its place before *ASSEMBLY')
-      else if (card%name == 'INSTANCE' .and. .not. (parts%in_assembly .or. parts%is_loose)) then
-         call refuse_card(deck, card, 'E-PART', '*INSTANCE outside of an assembly', 'its place between *ASSEMBLY and *END ASSEMBLY')
-         parts%is_loose = .true.
-      end if
-   end subroutine check_assembly
-
-   subroutine open_block(deck, parts, card)
-      type(deck_t), intent(in) :: deck
-      type(parts_t), intent(inout) :: parts
-      type(card_t), intent(inout) :: card
-      integer :: i
-
-      parts%n_blocks = parts%n_blocks + 1
-      parts%in_block = .true.
-      parts%is_told = .false.
-      parts%block = card%name(:len(parts%block))
-      parts%block_place = card%place
-      card%block = parts%n_blocks
-      parts%name = 'it'
-      do i = 1, size(card%options)                 ! they have not been looked up in the table yet
-         if (.not. same_name(token_text(deck, card%options(i)%name), 'NAME')) cycle
-         parts%name = token_text(deck, card%options(i)%value)
-      end do
-   end subroutine open_block
-
    subroutine close_block(deck, parts, card)
       type(deck_t), intent(in) :: deck
       type(parts_t), intent(inout) :: parts
@@ -133,17 +138,6 @@ contains
       card%block = merge(parts%n_blocks, 0_ip, parts%in_block)
       parts%in_block = .false.
    end subroutine close_block
-
-   !> Nothing of this kind may stand inside a part or an instance, which ends here.
-   subroutine refuse_nesting(deck, parts, card)
-      type(deck_t), intent(in) :: deck
-      type(parts_t), intent(inout) :: parts
-      type(card_t), intent(inout) :: card
-
-      if (parts%in_block .and. .not. parts%is_told) call refuse_card(deck, card, 'E-PART', '*'//trim(card%name)//' inside '// &
-                                                                     open_text(parts), '*END '//trim(parts%block)//' before it')
-      parts%in_block = .false.
-   end subroutine refuse_nesting
 
    pure function open_text(parts) result(text)
       type(parts_t), intent(in) :: parts

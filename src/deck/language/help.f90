@@ -142,10 +142,10 @@ contains
       if (size(keyword%options) > 0) call append_block(lines, trim(merge('Options:', 'Options ', markdown)))
       if (size(keyword%options) > 0 .and. markdown) call append_string(lines, '')
       do i = 1, size(keyword%options)
-         call append_option(lines, keyword%options(i), markdown)
+         call append_option(keyword%options(i))
       end do
       do i = 1, size(keyword%forms)
-         call append_form(lines, keyword%forms(i), markdown)
+         call append_form(keyword%forms(i))
       end do
       if (size(keyword%example) == 0) return
       call append_block(lines, trim(merge('```    ', 'Example', markdown)))
@@ -153,57 +153,55 @@ contains
          call append_string(lines, repeat(' ', merge(0, 2, markdown))//keyword%example(i)%s)
       end do
       if (markdown) call append_string(lines, '```')
-   end subroutine append_keyword
 
-   subroutine append_option(lines, option, markdown)
-      type(string_t), allocatable, intent(inout) :: lines(:)
-      type(option_spec_t), intent(in) :: option
-      logical, intent(in) :: markdown
-      character(len=:), allocatable :: text
+   contains
 
-      text = with_dimension(option%doc, option%dimension)
-      if (size(option%choices) > 0) text = text//': '//choices_text(option%choices)
-      if (len(option%default) > 0) text = text//'; default '//option%default
-      if (len(option%needs) > 0) text = text//'; goes with '//option%needs
-      if (option%required) text = text//' (required)'
-      if (.not. option%built) text = text//' (not built yet)'
-      if (option%harmless) text = text//trim(merge(' (ignored)          ', ' (no effect, a note)', markdown))
-      if (markdown) then
-         call append_string(lines, '- `'//option_text_of(option)//'`: '//escaped(text))
-      else
-         call append_entry(lines, option_text_of(option), text)
-      end if
-   end subroutine append_option
+      subroutine append_option(option)
+         type(option_spec_t), intent(in) :: option
+         character(len=:), allocatable :: text
 
-   subroutine append_form(lines, form, markdown)
-      type(string_t), allocatable, intent(inout) :: lines(:)
-      type(form_t), intent(in) :: form
-      logical, intent(in) :: markdown
-      character(len=:), allocatable :: title
-      integer :: i
-
-      title = 'Data lines'
-      if (len(form%option) > 0) title = title//' '//condition_text(form)
-      title = title//': '//form%doc//' ('//lines_text(form)//')'
-      call append_string(lines, '')
-      if (markdown) then
-         if (form%harmless) title = title//' (no effect)'
-         call append_string(lines, escaped(title)//':')
-         call append_string(lines, '`'//form_text(form, names_only=.true.)//'`')
-         call append_string(lines, '')
-      else
-         if (form%harmless) title = title//', no effect'
-         call append_wrapped(lines, '', title)
-         call append_wrapped(lines, '  ', form_text(form))
-      end if
-      do i = 1, size(form%items)
+         text = with_dimension(option%doc, option%dimension)
+         if (size(option%choices) > 0) text = text//': '//choices_text(option%choices)
+         if (len(option%default) > 0) text = text//'; default '//option%default
+         if (len(option%needs) > 0) text = text//'; goes with '//option%needs
+         if (option%required) text = text//' (required)'
+         if (.not. option%built) text = text//' (not built yet)'
+         if (option%harmless) text = text//trim(merge(' (ignored)          ', ' (no effect, a note)', markdown))
          if (markdown) then
-            call append_string(lines, '- '//escaped(form%items(i)%name//': '//item_meaning(form%items(i))))
+            call append_string(lines, '- `'//option_text_of(option)//'`: '//escaped(text))
          else
-            call append_entry(lines, form%items(i)%name, item_meaning(form%items(i)))
+            call append_entry(lines, option_text_of(option), text)
          end if
-      end do
-   end subroutine append_form
+      end subroutine append_option
+
+      subroutine append_form(form)
+         type(form_t), intent(in) :: form
+         character(len=:), allocatable :: title
+         integer :: i
+
+         title = 'Data lines'
+         if (len(form%option) > 0) title = title//' '//condition_text(form)
+         title = title//': '//form%doc//' ('//lines_text(form)//')'
+         call append_string(lines, '')
+         if (markdown) then
+            if (form%harmless) title = title//' (no effect)'
+            call append_string(lines, escaped(title)//':')
+            call append_string(lines, '`'//form_text(form, names_only=.true.)//'`')
+            call append_string(lines, '')
+         else
+            if (form%harmless) title = title//', no effect'
+            call append_wrapped(lines, '', title)
+            call append_wrapped(lines, '  ', form_text(form))
+         end if
+         do i = 1, size(form%items)
+            if (markdown) then
+               call append_string(lines, '- '//escaped(form%items(i)%name//': '//item_meaning(form%items(i))))
+            else
+               call append_entry(lines, form%items(i)%name, item_meaning(form%items(i)))
+            end if
+         end do
+      end subroutine append_form
+   end subroutine append_keyword
 
    !> All keywords of other programs, a section of the manual.
    subroutine append_all_foreign(lines, table)

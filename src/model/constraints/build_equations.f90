@@ -54,10 +54,43 @@ contains
                terms = terms(pack([(j, j=1, size(terms, kind=ip))], terms%dof /= NO_DOF))
                if (size(terms) == 0) cycle
                call order_sets(context, place, terms, ok)
-               if (ok) call add_equations(context, place, terms, group, weight)
+               if (ok) call add_equations()
             end do
          end associate
       end do
+
+   contains
+
+      !> The equations of terms: one for each node of the first.
+      subroutine add_equations()
+         integer(ip) :: i, k, node, nodes(TERMS_A_DOF, size(terms))
+         real(wp) :: vectors(2, TERMS_A_DOF, size(terms)), scale
+
+         associate (n => size(terms(1)%nodes, kind=ip))
+            if (any([(size(terms(i)%nodes) /= 1 .and. size(terms(i)%nodes) /= n, i=1, size(terms, kind=ip))])) then
+               call report_error(context%deck, place, 'E-EQUATION', 'the sets of this equation have different numbers of nodes', &
+                                 expected='sets of as many nodes as the first, or single nodes')
+               return
+            end if
+            do k = 1, n
+               do i = 1, size(terms, kind=ip)
+                  node = terms(i)%nodes(min(k, size(terms(i)%nodes, kind=ip)))
+                  call row_terms(context, node, terms(i)%dof, 1.0_wp, nodes(:, i), vectors(:, :, i))
+                  vectors(:, :, i) = terms(i)%coefficient*vectors(:, :, i)
+               end do
+               if (is_empty([nodes], reshape(vectors, [2_ip, size(nodes, kind=ip)]))) then
+                  call report_error(context%deck, place, 'E-VALUE', 'all coefficients of this equation are 0, or cancel', &
+                                    expected='a coefficient other than 0')
+                  return
+               end if
+               scale = 1.0_wp                               ! rotations have another unit: the largest entry is 1 as of motions
+               if (any(terms%dof == ROTATION_DOF)) scale = 1/maxval(abs(vectors))
+               call add_nodal_value(context%model%equations, terms(1)%nodes(k), terms(1)%dof, scale*terms(1)%coefficient)
+               call add_row([nodes], reshape(scale*vectors, [2_ip, size(nodes, kind=ip)]), 0.0_wp, 0.0_wp, &
+                            weight, [ROW_EQUATION, group, context%model%equations%n], context%model%bilateral)
+            end do
+         end associate
+      end subroutine add_equations
    end subroutine build_equations
 
    !> One equation: a line with the number of its terms, and the lines of these. k: first line, and on return the one behind.
@@ -194,42 +227,6 @@ contains
       if (.not. ok) call report_error(context%deck, place, 'E-REFINE', 'the new nodes of these sets have no partners', &
                                       expected='sets along edges of elements, in the same order')
    end subroutine order_sets
-
-   !> The equations of terms: one for each node of the first.
-   subroutine add_equations(context, place, terms, group, weight)
-      type(build_context_t), intent(inout) :: context
-      type(token_t), intent(in) :: place
-      type(term_t), intent(in) :: terms(:)
-      integer(ip), intent(in) :: group
-      real(wp), intent(in) :: weight                   !< of the rows [L^2]
-      integer(ip) :: i, k, node, nodes(TERMS_A_DOF, size(terms))
-      real(wp) :: vectors(2, TERMS_A_DOF, size(terms)), scale
-
-      associate (n => size(terms(1)%nodes, kind=ip))
-         if (any([(size(terms(i)%nodes) /= 1 .and. size(terms(i)%nodes) /= n, i=1, size(terms, kind=ip))])) then
-            call report_error(context%deck, place, 'E-EQUATION', 'the sets of this equation have different numbers of nodes', &
-                              expected='sets of as many nodes as the first, or single nodes')
-            return
-         end if
-         do k = 1, n
-            do i = 1, size(terms, kind=ip)
-               node = terms(i)%nodes(min(k, size(terms(i)%nodes, kind=ip)))
-               call row_terms(context, node, terms(i)%dof, 1.0_wp, nodes(:, i), vectors(:, :, i))
-               vectors(:, :, i) = terms(i)%coefficient*vectors(:, :, i)
-            end do
-            if (is_empty([nodes], reshape(vectors, [2_ip, size(nodes, kind=ip)]))) then
-               call report_error(context%deck, place, 'E-VALUE', 'all coefficients of this equation are 0, or cancel', &
-                                 expected='a coefficient other than 0')
-               return
-            end if
-            scale = 1.0_wp                               ! rotations have another unit: the largest entry is 1 as of motions
-            if (any(terms%dof == ROTATION_DOF)) scale = 1/maxval(abs(vectors))
-            call add_nodal_value(context%model%equations, terms(1)%nodes(k), terms(1)%dof, scale*terms(1)%coefficient)
-            call add_row([nodes], reshape(scale*vectors, [2_ip, size(nodes, kind=ip)]), 0.0_wp, 0.0_wp, &
-                         weight, [ROW_EQUATION, group, context%model%equations%n], context%model%bilateral)
-         end do
-      end associate
-   end subroutine add_equations
 
    !> Whether an equation with a node in the place of its first one asks for nothing.
    logical function is_idle_at(node, terms, context)

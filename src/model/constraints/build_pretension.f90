@@ -81,45 +81,43 @@ contains
                outward = outward + [along(2), -along(1)]
             end do
          end associate
-         call read_normal(card, context, outward, cut%normal, ok)
+         call read_normal(cut%normal)
          if (ok) call cut_along(context, place, faces, cut, ok)
          if (.not. ok) return
          cut%body = context%rigid_bodies%n + 1
          call append_rigid_body(context, rigid_body_t(surface, node, cut%size, is_section=.true.))
          context%cuts = [context%cuts, cut]
       end associate
+
+   contains
+
+      !> The data line, or the mean normal of the faces.
+      subroutine read_normal(normal)
+         real(wp), intent(out) :: normal(2)
+         character(len=*), parameter :: WHAT = 'component of the normal, a real'
+         type(token_t) :: place
+         real(wp) :: given(3)
+
+         ok = card%n_lines > 0 .or. norm2(outward) > 0.0_wp
+         normal = outward/max(norm2(outward), tiny(1.0_wp))
+         if (.not. ok) call refuse(context, card%place, 'the faces have no normal in the mean')
+         if (card%n_lines == 0) return
+         call get_reals(context%deck, context%deck%lines(card%first_line), 1_ip, WHAT, given, ok, spread(0.0_wp, 1, 3))
+         if (.not. ok) return
+         place = line_item(context%deck, context%deck%lines(card%first_line), 1_ip)
+         ok = norm2(given(:2)) > 0.0_wp .and. abs(given(3)) <= 0.0_wp
+         if (.not. ok) then
+            call report_error(context%deck, place, 'E-VALUE', 'this normal does not lie in the plane, or is 0', &
+                              expected='x and y of the normal, and 0')
+            return
+         end if
+         normal = given(:2)/maxval(abs(given(:2)))
+         normal = normal/norm2(normal)
+         if (dot_product(normal, outward) >= 0.0_wp) return
+         call report_warning(context%deck, place, 'W-CUT', 'the normal points into the elements of the surface: a positive '// &
+                             'force pushes the sides apart', expected='a normal that points away from these elements')
+      end subroutine read_normal
    end subroutine read_card
-
-   !> The data line, or the mean normal of the faces.
-   subroutine read_normal(card, context, outward, normal, ok)
-      type(card_t), intent(in) :: card
-      type(build_context_t), intent(in) :: context
-      real(wp), intent(in) :: outward(2)
-      real(wp), intent(out) :: normal(2)
-      logical, intent(out) :: ok
-      character(len=*), parameter :: WHAT = 'component of the normal, a real'
-      type(token_t) :: place
-      real(wp) :: given(3)
-
-      ok = card%n_lines > 0 .or. norm2(outward) > 0.0_wp
-      normal = outward/max(norm2(outward), tiny(1.0_wp))
-      if (.not. ok) call refuse(context, card%place, 'the faces have no normal in the mean')
-      if (card%n_lines == 0) return
-      call get_reals(context%deck, context%deck%lines(card%first_line), 1_ip, WHAT, given, ok, spread(0.0_wp, 1, 3))
-      if (.not. ok) return
-      place = line_item(context%deck, context%deck%lines(card%first_line), 1_ip)
-      ok = norm2(given(:2)) > 0.0_wp .and. abs(given(3)) <= 0.0_wp
-      if (.not. ok) then
-         call report_error(context%deck, place, 'E-VALUE', 'this normal does not lie in the plane, or is 0', &
-                           expected='x and y of the normal, and 0')
-         return
-      end if
-      normal = given(:2)/maxval(abs(given(:2)))
-      normal = normal/norm2(normal)
-      if (dot_product(normal, outward) >= 0.0_wp) return
-      call report_warning(context%deck, place, 'W-CUT', 'the normal points into the elements of the surface: a positive '// &
-                          'force pushes the sides apart', expected='a normal that points away from these elements')
-   end subroutine read_normal
 
    !> Cuts the mesh, and gives the new nodes what the old ones have.
    subroutine cut_along(context, place, faces, cut, ok)

@@ -68,40 +68,57 @@ contains
                                         expected='ANALYTICAL SURFACE=, or REF NODE= and one of NSET=, TIE NSET=, ELSET=')
          return
       end if
-      call read_reference(card, surface, context)
+      call read_reference()
+
+   contains
+
+      !> REF NODE=: one node of no element, of one surface alone.
+      subroutine read_reference()
+         type(rigid_body_t) :: body
+         type(token_t) :: place
+         character(len=*), parameter :: WHAT = 'a node of no element that is the reference of this surface alone'
+         character(len=:), allocatable :: wrong
+         integer(ip), allocatable :: tied(:)
+         logical :: ok
+
+         call read_tied_nodes(card, context, body%name, tied, ok)
+         if (.not. (ok .and. card%ok)) return
+         if (.not. has_option(context%deck, card, 'REF NODE')) then
+            if (allocated(body%name)) call report_error(context%deck, card%place, 'E-OPTION-MISSING', &
+                                                        'nodes of a rigid body need REF NODE=, with which they move', &
+                                                        expected='*RIGID BODY, REF NODE=number, TIE NSET=name')
+            return
+         end if
+         call find_free_node(card, context, 'REF NODE', WHAT, body%node, place)
+         if (body%node == 0) return
+         wrong = what_is_wrong(body%node)
+         if (len(wrong) > 0) then
+            call report_error(context%deck, place, 'E-NODE', wrong, expected=WHAT)
+            return
+         end if
+         body%surface = surface
+         body%size = reach_of(context, surface, tied, context%model%mesh%x(:, body%node))
+         call append_rigid_body(context, body)
+      end subroutine read_reference
+
+      !> Why a node cannot be the reference of a surface; '' where it can.
+      function what_is_wrong(node) result(wrong)
+         integer(ip), intent(in) :: node
+         character(len=:), allocatable :: wrong
+
+         wrong = ''
+         associate (others => context%model%rigid_bodies(:context%rigid_bodies%n))
+            if (rigid_body_of(context, node) > 0) then
+               wrong = 'node '//to_text(context%model%mesh%node_id(node))//' is the reference node of '// &
+                       trim(merge('surface', 'set    ', others(rigid_body_of(context, node))%surface > 0))//' '// &
+                       rigid_body_name(context%model, rigid_body_of(context, node))
+            else if (surface > 0 .and. any(others%surface == surface)) then
+               wrong = 'surface '//context%model%surfaces(surface)%name//' has the reference node ' &
+                       //to_text(context%model%mesh%node_id(others(findloc(others%surface, surface, dim=1))%node))
+            end if
+         end associate
+      end function what_is_wrong
    end subroutine read_card
-
-   !> REF NODE=: one node of no element, of one surface alone.
-   subroutine read_reference(card, surface, context)
-      type(card_t), intent(in) :: card
-      integer(ip), intent(in) :: surface               !< 0: none
-      type(build_context_t), intent(inout) :: context
-      type(rigid_body_t) :: body
-      type(token_t) :: place
-      character(len=*), parameter :: WHAT = 'a node of no element that is the reference of this surface alone'
-      character(len=:), allocatable :: wrong
-      integer(ip), allocatable :: tied(:)
-      logical :: ok
-
-      call read_tied_nodes(card, context, body%name, tied, ok)
-      if (.not. (ok .and. card%ok)) return
-      if (.not. has_option(context%deck, card, 'REF NODE')) then
-         if (allocated(body%name)) call report_error(context%deck, card%place, 'E-OPTION-MISSING', &
-                                                     'nodes of a rigid body need REF NODE=, with which they move', &
-                                                     expected='*RIGID BODY, REF NODE=number, TIE NSET=name')
-         return
-      end if
-      call find_free_node(card, context, 'REF NODE', WHAT, body%node, place)
-      if (body%node == 0) return
-      wrong = what_is_wrong(context, surface, body%node)
-      if (len(wrong) > 0) then
-         call report_error(context%deck, place, 'E-NODE', wrong, expected=WHAT)
-         return
-      end if
-      body%surface = surface
-      body%size = reach_of(context, surface, tied, context%model%mesh%x(:, body%node))
-      call append_rigid_body(context, body)
-   end subroutine read_reference
 
    !> The one node that an option names; it belongs to no element.
    subroutine find_free_node(card, context, option, expected, node, place)
@@ -169,25 +186,6 @@ contains
       call report_error(context%deck, card%place, 'E-NODE', 'no node of '//name//' belongs to an element', &
                         expected='nodes of elements')
    end subroutine read_tied_nodes
-
-   !> Why a node cannot be the reference of a surface; '' where it can.
-   function what_is_wrong(context, surface, node) result(wrong)
-      type(build_context_t), intent(in) :: context
-      integer(ip), intent(in) :: surface, node
-      character(len=:), allocatable :: wrong
-
-      wrong = ''
-      associate (others => context%model%rigid_bodies(:context%rigid_bodies%n))
-         if (rigid_body_of(context, node) > 0) then
-            wrong = 'node '//to_text(context%model%mesh%node_id(node))//' is the reference node of '// &
-                    trim(merge('surface', 'set    ', others(rigid_body_of(context, node))%surface > 0))//' '// &
-                    rigid_body_name(context%model, rigid_body_of(context, node))
-         else if (surface > 0 .and. any(others%surface == surface)) then
-            wrong = 'surface '//context%model%surfaces(surface)%name//' has the reference node ' &
-                    //to_text(context%model%mesh%node_id(others(findloc(others%surface, surface, dim=1))%node))
-         end if
-      end associate
-   end function what_is_wrong
 
    !> Largest distance of a surface and of nodes from a place: by this the nodes that carry its motion stand apart.
    pure real(wp) function reach_of(context, surface, nodes, x) result(reach)

@@ -169,47 +169,43 @@ contains
       end if
       reading%given(set) = .true.
       places = reading%sorted(reading%first(set):reading%first(set + 1) - 1)
-      call read_constants(card, context, places, any(reading%is_axial(places)), dof, stiffness, ok)
+      call read_constants(any(reading%is_axial(places)))
       if (any(reading%is_axial(places)) .and. .not. all(reading%is_axial(places))) then
          ok = .false.
          call report_error(context%deck, place, 'E-SPRING', 'the springs of '//name//' are SPRINGA and others', &
                            expected='a set for each type')
       end if
       if (ok) call add_springs(context, places, reading, dof, stiffness)
-   end subroutine read_spring_card
 
-   !> Dofs, and below them the stiffness. Of SPRINGA the last line has the stiffness; one before it says nothing.
-   subroutine read_constants(card, context, places, is_axial, dof, stiffness, ok)
-      type(card_t), intent(in) :: card
-      type(build_context_t), intent(in) :: context
-      integer(ip), intent(in) :: places(:)             !< of the springs
-      logical, intent(in) :: is_axial                  !< SPRINGA
-      integer(ip), intent(out) :: dof(2)
-      real(wp), intent(out) :: stiffness               !< [F/L]; of dof 6 [F L]
-      logical, intent(out) :: ok
-      character(len=*), parameter :: WHAT = 'stiffness, a real > 0 [F/L]'
-      type(token_t) :: place
-      logical :: good
+   contains
 
-      dof = 0
-      ok = card%ok .and. card%n_lines > merge(0, 1, is_axial)
-      if (card%ok .and. .not. (ok .or. is_axial)) call report_error(context%deck, card%place, 'E-LINES', &
-                                                                    '*SPRING needs 2 data lines', &
-                                                                    expected='dofs, and below them the stiffness')
-      if (.not. ok) return
-      associate (deck => context%deck, first => context%deck%lines(card%first_line), &
-                 last => context%deck%lines(card%first_line + merge(card%n_lines - 1_ip, 1_ip, is_axial)))
-         ok = last%ok .and. (first%ok .or. is_axial)
+      !> Dofs, and below them the stiffness. Of SPRINGA the last line has the stiffness; one before it says nothing.
+      subroutine read_constants(is_axial)
+         logical, intent(in) :: is_axial                  !< SPRINGA
+         character(len=*), parameter :: WHAT = 'stiffness, a real > 0 [F/L]'
+         type(token_t) :: place
+         logical :: good
+
+         dof = 0
+         ok = card%ok .and. card%n_lines > merge(0, 1, is_axial)
+         if (card%ok .and. .not. (ok .or. is_axial)) call report_error(context%deck, card%place, 'E-LINES', &
+                                                                       '*SPRING needs 2 data lines', &
+                                                                       expected='dofs, and below them the stiffness')
          if (.not. ok) return
-         if (.not. is_axial) call read_dofs(first, context, places, dof, ok)
-         place = line_item(deck, last, 1_ip)
-         call get_real(deck, place, WHAT, stiffness, good)
-         ok = ok .and. good
-         if (.not. good .or. (stiffness > 1.0_wp/huge(1.0_wp) .and. 1.0_wp/stiffness > 0.0_wp)) return
-         ok = .false.
-         call report_error(deck, place, 'E-VALUE', to_text(stiffness)//' is out of range', expected=WHAT)
-      end associate
-   end subroutine read_constants
+         associate (deck => context%deck, first => context%deck%lines(card%first_line), &
+                    last => context%deck%lines(card%first_line + merge(card%n_lines - 1_ip, 1_ip, is_axial)))
+            ok = last%ok .and. (first%ok .or. is_axial)
+            if (.not. ok) return
+            if (.not. is_axial) call read_dofs(first, context, places, dof, ok)
+            place = line_item(deck, last, 1_ip)
+            call get_real(deck, place, WHAT, stiffness, good)
+            ok = ok .and. good
+            if (.not. good .or. (stiffness > 1.0_wp/huge(1.0_wp) .and. 1.0_wp/stiffness > 0.0_wp)) return
+            ok = .false.
+            call report_error(deck, place, 'E-VALUE', to_text(stiffness)//' is out of range', expected=WHAT)
+         end associate
+      end subroutine read_constants
+   end subroutine read_spring_card
 
    !> The dofs of both ends: two displacements, or two rotations. The second is the first where it is left out.
    subroutine read_dofs(line, context, places, dof, ok)
@@ -256,11 +252,68 @@ contains
          associate (spring => context%model%springs(places(i)))
             spring%dof = dof
             spring%stiffness = stiffness
-            call find_directions(context, spring, reading%place(places(i)), vectors, ok)
-            if (ok) call ground_ends(context, reading%place(places(i)), spring, vectors, ok)
+            call find_directions(spring, reading%place(places(i)))
+            if (ok) call ground_ends(reading%place(places(i)), spring)
             if (ok) call add_spring(context, spring, vectors, [ROW_SPRING, group, places(i)], reading%weight)
          end associate
       end do
+
+   contains
+
+      subroutine find_directions(spring, place)
+         type(spring_t), intent(in) :: spring
+         type(token_t), intent(in) :: place
+         real(wp) :: way(2)
+
+         ok = .true.
+         vectors = 0.0_wp
+         if (spring%dof(1) == ROTATION_DOF) return
+         if (spring%dof(1) > 0) then
+            vectors(:, 1) = dof_direction(context, spring%node(1), spring%dof(1))
+            if (spring%node(2) > 0) vectors(:, 2) = -dof_direction(context, spring%node(2), spring%dof(2))
+            return
+         end if
+         way = context%model%mesh%x(:, spring%node(2)) - context%model%mesh%x(:, spring%node(1))
+         ok = norm2(way) > 0.0_wp
+         if (ok) vectors = reshape([-way, way], [2, 2])/norm2(way)
+         if (.not. ok) call report_error(context%deck, place, 'E-SHAPE', 'both ends of spring '//to_text(spring%id)// &
+                                         ' lie at one place', expected='two places: the force is along the line between them')
+      end subroutine find_directions
+
+      !> Ends that belong to no element: held at 0 in all steps they are the ground.
+      subroutine ground_ends(place, spring)
+         type(token_t), intent(in) :: place
+         type(spring_t), intent(inout) :: spring
+         logical :: is_ground(2), is_held(3)
+         integer(ip) :: i
+
+         ok = .true.
+         if (spring%node(2) == 0) return                  ! SPRING1: its node has been looked at
+         is_ground = has_no_unknowns(context, spring%node)
+         do i = 1, 2
+            if (.not. is_ground(i)) cycle
+            is_held = context%loose_held(:, spring%node(i)) == LOOSE_HELD
+            if (spring%dof(i) == ROTATION_DOF) then
+               if (is_held(3)) cycle
+            else if (all(is_held(:2) .or. (abs(vectors(:, i)) <= 0.0_wp .and. .not. has_local_axes(context, spring%node(i))))) then
+               cycle
+            end if
+            call report_error(context%deck, place, 'E-NODE', 'node '//to_text(context%model%mesh%node_id(spring%node(i)))// &
+                              ' belongs to no element and is not held', expected='nodes of elements that are not springs, or '// &
+                              'the ground: a node that *BOUNDARY holds at 0 in all steps')
+            ok = .false.
+            return
+         end do
+         ok = .not. all(is_ground)
+         if (.not. ok) call report_error(context%deck, place, 'E-NODE', 'no end of spring '//to_text(spring%id)// &
+                                         ' belongs to an element', expected='a node of an element')
+         if (.not. ok .or. .not. any(is_ground)) return
+         i = merge(2_ip, 1_ip, is_ground(1))
+         vectors(:, 1) = vectors(:, i)
+         if (i == 2 .and. spring%dof(1) > 0) vectors(:, 1) = -vectors(:, 1)
+         spring%node = [spring%node(i), 0_ip]
+         spring%dof = [spring%dof(i), 0_ip]
+      end subroutine ground_ends
    end subroutine add_springs
 
    !> The row of a spring between two ends, v1 . u1 + v2 . u2 = q/k: the force q pulls the ends along -v1 and -v2, k is the
@@ -290,66 +343,5 @@ contains
       call add_row([nodes(:, :n)], reshape(terms(:, :, :n), [2_ip, TERMS_A_DOF*n]), 0.0_wp, spring%arm**2/spring%stiffness, &
                    weight, identity, context%model%bilateral)
    end subroutine add_spring
-
-   subroutine find_directions(context, spring, place, vectors, ok)
-      type(build_context_t), intent(in) :: context
-      type(spring_t), intent(in) :: spring
-      type(token_t), intent(in) :: place
-      real(wp), intent(out) :: vectors(2, 2)
-      logical, intent(out) :: ok
-      real(wp) :: way(2)
-
-      ok = .true.
-      vectors = 0.0_wp
-      if (spring%dof(1) == ROTATION_DOF) return
-      if (spring%dof(1) > 0) then
-         vectors(:, 1) = dof_direction(context, spring%node(1), spring%dof(1))
-         if (spring%node(2) > 0) vectors(:, 2) = -dof_direction(context, spring%node(2), spring%dof(2))
-         return
-      end if
-      way = context%model%mesh%x(:, spring%node(2)) - context%model%mesh%x(:, spring%node(1))
-      ok = norm2(way) > 0.0_wp
-      if (ok) vectors = reshape([-way, way], [2, 2])/norm2(way)
-      if (.not. ok) call report_error(context%deck, place, 'E-SHAPE', 'both ends of spring '//to_text(spring%id)// &
-                                      ' lie at one place', expected='two places: the force is along the line between them')
-   end subroutine find_directions
-
-   !> Ends that belong to no element: held at 0 in all steps they are the ground.
-   subroutine ground_ends(context, place, spring, vectors, ok)
-      type(build_context_t), intent(in) :: context
-      type(token_t), intent(in) :: place
-      type(spring_t), intent(inout) :: spring
-      real(wp), intent(inout) :: vectors(2, 2)
-      logical, intent(out) :: ok
-      logical :: is_ground(2), is_held(3)
-      integer(ip) :: i
-
-      ok = .true.
-      if (spring%node(2) == 0) return                  ! SPRING1: its node has been looked at
-      is_ground = has_no_unknowns(context, spring%node)
-      do i = 1, 2
-         if (.not. is_ground(i)) cycle
-         is_held = context%loose_held(:, spring%node(i)) == LOOSE_HELD
-         if (spring%dof(i) == ROTATION_DOF) then
-            if (is_held(3)) cycle
-         else if (all(is_held(:2) .or. (abs(vectors(:, i)) <= 0.0_wp .and. .not. has_local_axes(context, spring%node(i))))) then
-            cycle
-         end if
-         call report_error(context%deck, place, 'E-NODE', 'node '//to_text(context%model%mesh%node_id(spring%node(i)))// &
-                           ' belongs to no element and is not held', expected='nodes of elements that are not springs, or '// &
-                           'the ground: a node that *BOUNDARY holds at 0 in all steps')
-         ok = .false.
-         return
-      end do
-      ok = .not. all(is_ground)
-      if (.not. ok) call report_error(context%deck, place, 'E-NODE', 'no end of spring '//to_text(spring%id)// &
-                                      ' belongs to an element', expected='a node of an element')
-      if (.not. ok .or. .not. any(is_ground)) return
-      i = merge(2_ip, 1_ip, is_ground(1))
-      vectors(:, 1) = vectors(:, i)
-      if (i == 2 .and. spring%dof(1) > 0) vectors(:, 1) = -vectors(:, 1)
-      spring%node = [spring%node(i), 0_ip]
-      spring%dof = [spring%dof(i), 0_ip]
-   end subroutine ground_ends
 
 end module atrito_build_springs

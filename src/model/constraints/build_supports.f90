@@ -173,7 +173,7 @@ contains
          if (ok) call find_nodes(context, line_token(context, 1_ip), nodes, ok)
          if (ok) values = spread(0.0_wp, 1, size(nodes))
       else
-         call read_values(is_function, in_model, context, nodes, held, values, ok)
+         call read_values(nodes, values, ok)
       end if
       if (.not. ok) return
       loose = has_no_unknowns(context, nodes)
@@ -196,53 +196,51 @@ contains
          numbered%value(:, nodes(1)) = values(1)
       end where
       numbered%n = numbered%n + 1
+
+   contains
+
+      !> Node or set, first dof[, last dof[, value]], or in the place of the value an expression in x and y.
+      subroutine read_values(nodes, values, is_ok)
+         integer(ip), allocatable, intent(out) :: nodes(:)
+         real(wp), allocatable, intent(out) :: values(:)  !< of the nodes [L], or [-]
+         logical, intent(out) :: is_ok
+         type(token_t) :: place, last_token
+         real(wp) :: value
+         integer(ip) :: first, last
+         logical :: ok(4)
+
+         is_ok = .false.
+         call find_nodes(context, line_token(context, 1_ip), nodes, ok(1))
+         call get_integer(context%deck, line_token(context, 2_ip), 'first '//WHAT_DOF, first, ok(2))
+         call get_integer(context%deck, line_token(context, 3_ip), 'last '//WHAT_DOF, last, ok(3), first)
+         place = line_token(context, 4_ip)
+         if (is_function) then
+            last_token = last_item(context%deck, open_line(context))
+            place%last = last_token%last                  ! commas belong to the expression: max(x, y)
+            value = 1.0_wp                                ! a function is not 0, whatever it is: there are no harmless dofs
+            ok(4) = .true.
+         else
+            call get_real(context%deck, place, 'displacement, a real [L]', value, ok(4), 0.0_wp)
+            if (.not. all(ok(2:))) return
+         end if
+         if (in_model .and. abs(value) > 0.0_wp) then
+            ok(4) = .false.
+            call report_error(context%deck, place, 'E-VALUE', 'a displacement other than 0 before *STEP', &
+                              expected=trim(merge('*BOUNDARY, FUNCTION in the step     ', '0 [L] here; other values in the step', &
+                                                  is_function)))
+         end if
+         if (all(ok(2:3))) ok(2) = are_dofs(context, first, last, value,.not. is_function .and. size(nodes) > 0 .and. &
+                                            all(is_reference(context, nodes)))
+         values = spread(value, 1, size(nodes))
+         if (is_function .and. ok(4)) call evaluate_function(context%deck, place, context%model%mesh%x(:, nodes), values, ok(4), &
+                                                             'BOUNDARY')
+         is_ok = all(ok)
+         if (.not. is_ok) return
+         held = .false.
+         held(first:last) = .true.
+         held(ROTATION_DOF) = last == ROTATION_DOF
+      end subroutine read_values
    end subroutine read_line
-
-   !> Node or set, first dof[, last dof[, value]], or in the place of the value an expression in x and y.
-   subroutine read_values(is_function, in_model, context, nodes, held, values, is_ok)
-      logical, intent(in) :: is_function
-      logical, intent(in) :: in_model                  !< before *STEP
-      type(build_context_t), intent(in) :: context
-      integer(ip), allocatable, intent(out) :: nodes(:)
-      logical, intent(out) :: held(LAST_DOF)           !< dofs
-      real(wp), allocatable, intent(out) :: values(:)  !< of the nodes [L], or [-]
-      logical, intent(out) :: is_ok
-      type(token_t) :: place, last_token
-      real(wp) :: value
-      integer(ip) :: first, last
-      logical :: ok(4)
-
-      is_ok = .false.
-      call find_nodes(context, line_token(context, 1_ip), nodes, ok(1))
-      call get_integer(context%deck, line_token(context, 2_ip), 'first '//WHAT_DOF, first, ok(2))
-      call get_integer(context%deck, line_token(context, 3_ip), 'last '//WHAT_DOF, last, ok(3), first)
-      place = line_token(context, 4_ip)
-      if (is_function) then
-         last_token = last_item(context%deck, open_line(context))
-         place%last = last_token%last                  ! commas belong to the expression: max(x, y)
-         value = 1.0_wp                                ! a function is not 0, whatever it is: there are no harmless dofs
-         ok(4) = .true.
-      else
-         call get_real(context%deck, place, 'displacement, a real [L]', value, ok(4), 0.0_wp)
-         if (.not. all(ok(2:))) return
-      end if
-      if (in_model .and. abs(value) > 0.0_wp) then
-         ok(4) = .false.
-         call report_error(context%deck, place, 'E-VALUE', 'a displacement other than 0 before *STEP', &
-                           expected=trim(merge('*BOUNDARY, FUNCTION in the step     ', '0 [L] here; other values in the step', &
-                                               is_function)))
-      end if
-      if (all(ok(2:3))) ok(2) = are_dofs(context, first, last, value,.not. is_function .and. size(nodes) > 0 .and. &
-                                         all(is_reference(context, nodes)))
-      values = spread(value, 1, size(nodes))
-      if (is_function .and. ok(4)) call evaluate_function(context%deck, place, context%model%mesh%x(:, nodes), values, ok(4), &
-                                                          'BOUNDARY')
-      is_ok = all(ok)
-      if (.not. is_ok) return
-      held = .false.
-      held(first:last) = .true.
-      held(ROTATION_DOF) = last == ROTATION_DOF
-   end subroutine read_values
 
    !> An edge of the outline all of whose nodes a card prescribes one by one is prescribed between them, too.
    subroutine prescribe_edges(context, numbered)

@@ -75,8 +75,8 @@ contains
       call read_points(card, context, a, b, ok)
       if (.not. (found .and. ok)) return
       if (option_word(context%deck, card, 'TYPE') == 'R') then
-         call rectangular_axes(card, context, a, b, axes, ok)
-         if (ok) call take_axes(place, nodes, spread(axes, 3, size(nodes)), context)
+         call rectangular_axes()
+         if (ok) call take_axes(spread(axes, 3, size(nodes)))
       else
          associate (x => context%model%mesh%x)
             if (any([(all(x(:, nodes(i)) == a), i=1, size(nodes, kind=ip))])) then
@@ -84,10 +84,42 @@ contains
                                  'a node of the set stands on the axis', expected='an axis away from the nodes')
                return
             end if
-            call take_axes(place, nodes, reshape([(axes_along(x(:, nodes(i)) - a), i=1, size(nodes, kind=ip))], &
-                                                 [2, 2, size(nodes)]), context)
+            call take_axes(reshape([(axes_along(x(:, nodes(i)) - a), i=1, size(nodes, kind=ip))], [2, 2, size(nodes)]))
          end associate
       end if
+
+   contains
+
+      !> R: local x along a, local y to the side of b.
+      subroutine rectangular_axes()
+         real(wp) :: side
+
+         ok = norm2(a) > 0.0_wp
+         axes = 0.0_wp
+         if (ok) axes = axes_along(a)
+         side = dot_product(axes(:, 2), b)
+         if (ok .and. any(b /= a)) ok = abs(side) > SAME_AXIS*norm2(b)
+         if (.not. ok) call report_error(context%deck, line_item(context%deck, context%deck%lines(card%first_line), 1_ip), &
+                                         'E-VALUE', 'these points give no axes: one is the origin, or both lie on a line with it', &
+                                         expected='a point on the local x axis, and one to its side')
+         if (side < 0.0_wp) axes(:, 2) = -axes(:, 2)
+      end subroutine rectangular_axes
+
+      subroutine take_axes(axes)
+         real(wp), intent(in) :: axes(:, :, :)
+         logical :: clashes(size(nodes))
+         integer(ip) :: i
+
+         do i = 1, size(nodes, kind=ip)
+            associate (own => context%axes(:, :, nodes(i)))
+               clashes(i) = any(own /= 0.0_wp) .and. any(abs(own - axes(:, :, i)) > SAME_AXIS)
+               own = axes(:, :, i)
+            end associate
+         end do
+         if (any(clashes)) call report_error(context%deck, place, 'E-CONFLICT', 'node '// &
+                                             ids_text(pack(context%model%mesh%node_id(nodes), clashes))// &
+                                             ' has other local axes already', expected='one *TRANSFORM for each node')
+      end subroutine take_axes
    end subroutine read_transform_card
 
    !> The two points of a card in the plane; b is a where it is left out.
@@ -139,26 +171,6 @@ contains
       end associate
    end subroutine read_points
 
-   !> R: local x along a, local y to the side of b.
-   subroutine rectangular_axes(card, context, a, b, axes, ok)
-      type(card_t), intent(in) :: card
-      type(build_context_t), intent(in) :: context
-      real(wp), intent(in) :: a(2), b(2)
-      real(wp), intent(out) :: axes(2, 2)
-      logical, intent(out) :: ok
-      real(wp) :: side
-
-      ok = norm2(a) > 0.0_wp
-      axes = 0.0_wp
-      if (ok) axes = axes_along(a)
-      side = dot_product(axes(:, 2), b)
-      if (ok .and. any(b /= a)) ok = abs(side) > SAME_AXIS*norm2(b)
-      if (.not. ok) call report_error(context%deck, line_item(context%deck, context%deck%lines(card%first_line), 1_ip), 'E-VALUE', &
-                                      'these points give no axes: one is the origin, or both lie on a line with it', &
-                                      expected='a point on the local x axis, and one to its side')
-      if (side < 0.0_wp) axes(:, 2) = -axes(:, 2)
-   end subroutine rectangular_axes
-
    !> A direction, and that turned by +90 degrees.
    pure function axes_along(direction) result(axes)
       real(wp), intent(in) :: direction(2)
@@ -167,25 +179,6 @@ contains
       axes(:, 1) = direction/norm2(direction)
       axes(:, 2) = [-axes(2, 1), axes(1, 1)]
    end function axes_along
-
-   subroutine take_axes(place, nodes, axes, context)
-      type(token_t), intent(in) :: place
-      integer(ip), intent(in) :: nodes(:)
-      real(wp), intent(in) :: axes(:, :, :)
-      type(build_context_t), intent(inout) :: context
-      logical :: clashes(size(nodes))
-      integer(ip) :: i
-
-      do i = 1, size(nodes, kind=ip)
-         associate (own => context%axes(:, :, nodes(i)))
-            clashes(i) = any(own /= 0.0_wp) .and. any(abs(own - axes(:, :, i)) > SAME_AXIS)
-            own = axes(:, :, i)
-         end associate
-      end do
-      if (any(clashes)) call report_error(context%deck, place, 'E-CONFLICT', 'node '// &
-                                          ids_text(pack(context%model%mesh%node_id(nodes), clashes))// &
-                                          ' has other local axes already', expected='one *TRANSFORM for each node')
-   end subroutine take_axes
 
    !> Whether a node has axes of its own, by *TRANSFORM.
    pure logical function has_local_axes(context, node)

@@ -28,43 +28,85 @@ contains
       type(condition_list_t) :: inclined
 
       if (context%open%number == 1) call begin_rows(context%model%bilateral)
-      call turn_list(context, .false., context%model%steps(context%open%number)%prescribed, inclined)
-      call turn_list(context, .true., context%model%steps(context%open%number)%rigid_prescribed, inclined)
-      if (allocated(context%axes)) call keep_inclined(context, inclined)
-   end subroutine turn_supports
+      call turn_list(.false., context%model%steps(context%open%number)%prescribed)
+      call turn_list(.true., context%model%steps(context%open%number)%rigid_prescribed)
+      if (allocated(context%axes)) call keep_inclined()
 
-   !> The supports along x and y; rotations stay, and what is neither is added to the inclined ones.
-   subroutine turn_list(context, of_references, turned, inclined)
-      type(build_context_t), intent(in) :: context
-      logical, intent(in) :: of_references             !< those of reference nodes, or those of all others
-      type(nodal_values_t), intent(out) :: turned
-      type(condition_list_t), intent(inout) :: inclined
-      type(condition_list_t) :: along_axes
-      integer(ip) :: i, other, axis
-      real(wp) :: direction(2)
+   contains
 
-      do i = 1, context%open%supports%n
-         associate (support => context%open%supports%list(i))
-            if (is_reference(context, support%place) .neqv. of_references) cycle
-            if (support%dof == ROTATION_DOF .or. .not. has_local_axes(context, support%place)) then
-               call add_condition(along_axes, support)
-               cycle
-            end if
-            direction = dof_direction(context, support%place, support%dof)
-            other = context%dof_entry(3 - support%dof, support%place)
-            if (any(direction == 0.0_wp)) then
-               axis = merge(2_ip, 1_ip, direction(1) == 0.0_wp)
-               call add_part(along_axes, support, axis, direction(axis))
-            else if (other > 0) then
-               ! once, by the first of the two
-               if (i < other) call add_both(context, support, context%open%supports%list(other), along_axes)
-            else
-               call add_condition(inclined, support)
-            end if
+      !> The supports along x and y; rotations stay, and what is neither is added to the inclined ones.
+      subroutine turn_list(of_references, turned)
+         logical, intent(in) :: of_references             !< those of reference nodes, or those of all others
+         type(nodal_values_t), intent(out) :: turned
+         type(condition_list_t) :: along_axes
+         integer(ip) :: i, other, axis
+         real(wp) :: direction(2)
+
+         do i = 1, context%open%supports%n
+            associate (support => context%open%supports%list(i))
+               if (is_reference(context, support%place) .neqv. of_references) cycle
+               if (support%dof == ROTATION_DOF .or. .not. has_local_axes(context, support%place)) then
+                  call add_condition(along_axes, support)
+                  cycle
+               end if
+               direction = dof_direction(context, support%place, support%dof)
+               other = context%dof_entry(3 - support%dof, support%place)
+               if (any(direction == 0.0_wp)) then
+                  axis = merge(2_ip, 1_ip, direction(1) == 0.0_wp)
+                  call add_part(along_axes, support, axis, direction(axis))
+               else if (other > 0) then
+                  ! once, by the first of the two
+                  if (i < other) call add_both(context, support, context%open%supports%list(other), along_axes)
+               else
+                  call add_condition(inclined, support)
+               end if
+            end associate
+         end do
+         turned = nodal_values_of(along_axes)
+      end subroutine turn_list
+
+      !> Single displacements along directions that are no axis: rows, the same in all steps.
+      subroutine keep_inclined()
+         real(wp) :: weight
+         integer(ip) :: i
+
+         if (context%open%number > 1) then
+            call check_inclined()
+            return
+         end if
+         weight = row_weight(context%model)
+         do i = 1, inclined%n
+            associate (support => inclined%list(i))
+               if (support%amplitude > 0) call refuse_inclined(context, support%place, support%dof, &
+                                                               'an amplitude of a displacement along an inclined axis')
+               call add_row([row_node(context, support%place)], &
+                            reshape(dof_direction(context, support%place, support%dof), [2, 1]), support%value(1), 0.0_wp, &
+                            weight, [ROW_SUPPORT, 1_ip, support%dof], context%model%bilateral)
+            end associate
+         end do
+         context%model%inclined = nodal_values_of(inclined)
+      end subroutine keep_inclined
+
+      !> What is along inclined axes in this step is so in the first.
+      subroutine check_inclined()
+         character(len=*), parameter :: WHAT = 'a displacement along an inclined axis that changes after the first step'
+         integer(ip) :: i
+
+         associate (first => context%model%inclined)
+            do i = 1, inclined%n
+               associate (support => inclined%list(i))
+                  if (i <= first%n) then
+                     if (support%place == first%node(i) .and. support%dof == first%dof(i) &
+                         .and. support%value(1) == first%value(i) .and. support%amplitude == 0) cycle
+                  end if
+                  call refuse_inclined(context, support%place, support%dof, WHAT)
+                  return
+               end associate
+            end do
+            if (inclined%n < first%n) call refuse_inclined(context, first%node(inclined%n + 1), first%dof(inclined%n + 1), WHAT)
          end associate
-      end do
-      turned = nodal_values_of(along_axes)
-   end subroutine turn_list
+      end subroutine check_inclined
+   end subroutine turn_supports
 
    !> Both displacements of a node.
    subroutine add_both(context, first, other, turned)
@@ -87,52 +129,6 @@ contains
          call add_condition(turned, along_axis)
       end do
    end subroutine add_both
-
-   !> Single displacements along directions that are no axis: rows, the same in all steps.
-   subroutine keep_inclined(context, inclined)
-      type(build_context_t), intent(inout) :: context
-      type(condition_list_t), intent(in) :: inclined   !< of this step
-      real(wp) :: weight
-      integer(ip) :: i
-
-      if (context%open%number > 1) then
-         call check_inclined(context, inclined)
-         return
-      end if
-      weight = row_weight(context%model)
-      do i = 1, inclined%n
-         associate (support => inclined%list(i))
-            if (support%amplitude > 0) call refuse_inclined(context, support%place, support%dof, &
-                                                            'an amplitude of a displacement along an inclined axis')
-            call add_row([row_node(context, support%place)], &
-                         reshape(dof_direction(context, support%place, support%dof), [2, 1]), support%value(1), 0.0_wp, &
-                         weight, [ROW_SUPPORT, 1_ip, support%dof], context%model%bilateral)
-         end associate
-      end do
-      context%model%inclined = nodal_values_of(inclined)
-   end subroutine keep_inclined
-
-   !> What is along inclined axes in this step is so in the first.
-   subroutine check_inclined(context, inclined)
-      type(build_context_t), intent(in) :: context
-      type(condition_list_t), intent(in) :: inclined
-      character(len=*), parameter :: WHAT = 'a displacement along an inclined axis that changes after the first step'
-      integer(ip) :: i
-
-      associate (first => context%model%inclined)
-         do i = 1, inclined%n
-            associate (support => inclined%list(i))
-               if (i <= first%n) then
-                  if (support%place == first%node(i) .and. support%dof == first%dof(i) &
-                      .and. support%value(1) == first%value(i) .and. support%amplitude == 0) cycle
-               end if
-               call refuse_inclined(context, support%place, support%dof, WHAT)
-               return
-            end associate
-         end do
-         if (inclined%n < first%n) call refuse_inclined(context, first%node(inclined%n + 1), first%dof(inclined%n + 1), WHAT)
-      end associate
-   end subroutine check_inclined
 
    !> At the line that gives a displacement; at the *STEP where there is none.
    subroutine refuse_inclined(context, node, dof, what)

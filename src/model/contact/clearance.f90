@@ -133,10 +133,38 @@ contains
          return
       end if
       do i = card%first_line, card%first_line + card%n_lines - 1
-         call read_line(context%deck%lines(i), context, of_slave, nodes, values, ok)
+         call read_line(context%deck%lines(i), nodes)
       end do
       one%node = numbers_of(nodes)
       if (nodes%n > 0) one%values = values(:nodes%n)
+
+   contains
+
+      !> node or set, gap.
+      subroutine read_line(line, all_nodes)
+         type(data_line_t), intent(in) :: line
+         type(number_list_t), intent(inout) :: all_nodes  !< of the lines so far
+         integer(ip), allocatable :: nodes(:)
+         real(wp) :: gap
+         integer(ip) :: i
+         logical :: good(2)
+
+         ok = ok .and. line%ok
+         if (.not. line%ok) return
+         call find_nodes(context, line_item(context%deck, line, 1_ip), nodes, good(1))
+         call get_real(context%deck, line_item(context%deck, line, 2_ip), WHAT, gap, good(2))
+         ok = ok .and. all(good)
+         if (.not. all(good)) return
+         nodes = pack(nodes, [(find_id(of_slave, nodes(i)) > 0, i=1, size(nodes, kind=ip))])
+         if (size(nodes) == 0) then
+            ok = .false.
+            call report_error(context%deck, line_item(context%deck, line, 1_ip), 'E-NODE', 'no node of the slave is meant', &
+                              expected='a node of the slave, or a set with nodes of it')
+         end if
+         call make_room(values, all_nodes%n, all_nodes%n + size(nodes, kind=ip))
+         values(all_nodes%n + 1:all_nodes%n + size(nodes)) = gap
+         call add_numbers(all_nodes, nodes)
+      end subroutine read_line
    end subroutine read_card
 
    !> An expression in x and y, evaluated at the nodes of the slave.
@@ -158,36 +186,6 @@ contains
       allocate (one%values(size(nodes)))
       call evaluate_function(context%deck, expression, context%model%mesh%x(:, nodes), one%values, ok, 'CLEARANCE')
    end subroutine read_function
-
-   !> node or set, gap.
-   subroutine read_line(line, context, of_slave, all_nodes, values, ok)
-      type(data_line_t), intent(in) :: line
-      type(build_context_t), intent(in) :: context
-      type(id_map_t), intent(in) :: of_slave           !< its nodes
-      type(number_list_t), intent(inout) :: all_nodes  !< of the lines so far
-      real(wp), allocatable, intent(inout) :: values(:) !< their gaps [L]; as many are in use
-      logical, intent(inout) :: ok
-      integer(ip), allocatable :: nodes(:)
-      real(wp) :: gap
-      integer(ip) :: i
-      logical :: good(2)
-
-      ok = ok .and. line%ok
-      if (.not. line%ok) return
-      call find_nodes(context, line_item(context%deck, line, 1_ip), nodes, good(1))
-      call get_real(context%deck, line_item(context%deck, line, 2_ip), WHAT, gap, good(2))
-      ok = ok .and. all(good)
-      if (.not. all(good)) return
-      nodes = pack(nodes, [(find_id(of_slave, nodes(i)) > 0, i=1, size(nodes, kind=ip))])
-      if (size(nodes) == 0) then
-         ok = .false.
-         call report_error(context%deck, line_item(context%deck, line, 1_ip), 'E-NODE', 'no node of the slave is meant', &
-                           expected='a node of the slave, or a set with nodes of it')
-      end if
-      call make_room(values, all_nodes%n, all_nodes%n + size(nodes, kind=ip))
-      values(all_nodes%n + 1:all_nodes%n + size(nodes)) = gap
-      call add_numbers(all_nodes, nodes)
-   end subroutine read_line
 
    !> Gives the points of the pairs their gaps.
    subroutine set_clearances(list, n_nodes, refinement, points)

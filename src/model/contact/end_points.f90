@@ -66,12 +66,61 @@ contains
          integer(ip), intent(in) :: k, p             !< end 1 or 2 of its piece
          type(contact_points_t) :: one
 
-         call find_point(model, i, sides, side, k, p, one)
+         call find_point(i, side, k, p, one)
          if (one%n == 0) return
          call insert_point(one, model%points(i))
          added = reshape([added, one%x(:, :1)], [2, size(added, 2) + 1])
       end subroutine add_point
 
+      !> The point at an end of one side. n = 0: the end faces no place between two nodes of the other one, or what is beside it
+      !> faces
+      !> nothing, or there is a point already.
+      subroutine find_point(pair, side, k, p, one)
+         integer(ip), intent(in) :: pair
+         integer, intent(in) :: side                    !< which one ends
+         integer(ip), intent(in) :: k, p                !< at end 1 or 2 of this piece
+         type(contact_points_t), intent(out) :: one
+         type(sight_t) :: sight, beside
+         real(wp) :: end(2), x(2), normal(2), across(2), inwards(2), t(2), reach
+         integer(ip) :: j, pieces(2)
+
+         end = place_at(sides(side), p, real(k - 1, wp))
+         normal = normal_at(sides(side), p, real(k - 1, wp))
+         inwards = (3 - 2*k)*sides(side)%d(:, p)
+         across = normal_across(model%points(pair)%sliding, end, normal)
+         sight = look_along(end, across, norm2(inwards), sides(3 - side))
+         if (sight%piece == 0) return
+         pieces(side) = p
+         pieces(3 - side) = sight%piece
+         t(side) = real(k - 1, wp)
+         t(3 - side) = sight%t
+         x = place_at(sides(1), pieces(1), t(1))
+         normal = normal_across(model%points(pair)%sliding, x, normal_at(sides(1), pieces(1), t(1)))
+         associate (points => model%points(pair), face => norm2(sides(1)%d(:, pieces(1))))
+            reach = min(face, norm2(sides(2)%d(:, pieces(2))))
+            beside = look_along(end + (NEAR*reach/norm2(inwards))*inwards, across, reach, sides(3 - side))
+            if (beside%piece == 0 .or. abs(sight%distance) > face) return
+            if (minval(norm2(points%x(:, :points%n) - spread(x, 2, int(points%n)), dim=1)) <= 2*END_TOLERANCE*reach) return
+            call allocate_points(1_ip, MOST_ENTRIES, one)
+            one%n = 1
+            one%x(:, 1) = x
+            one%normal(:, 1) = normal
+            one%gap = dot_product(place_at(sides(2), pieces(2), t(2)) - x, normal)
+            if (abs(one%gap(1)) <= ROUND_OFFS*EPS_MACH*maxval(abs(x))) one%gap = 0.0_wp
+            one%length = NEAR*face
+            one%s = sum(norm2(sides(1)%d(:, :pieces(1) - 1), dim=1)) + t(1)*face
+            j = minloc(abs(points%s(:points%n) - one%s(1)), dim=1, kind=ip)
+            one%weight = one%length*points%weight(j)/points%length(j)
+            if (allocated(points%doubt)) one%doubt = points%doubt(j:j)
+            one%first(2) = 1
+            associate (slave => model%surfaces(model%pairs(pair)%slave)%faces, &
+                       master => model%surfaces(model%pairs(pair)%master)%faces)
+               call add_face(model%mesh, slave, pieces(1), t(1), 1.0_wp, one)
+               if (.not. sides(2)%rigid) call add_face(model%mesh, master, pieces(2), t(2), -1.0_wp, one)
+            end associate
+            one%node = one%entry(1)
+         end associate
+      end subroutine find_point
    end subroutine add_end_points
 
    !> What the ends of each piece are, the same number where two pieces meet: nodes of faces, or ends of segments.
@@ -107,57 +156,6 @@ contains
       middle = place_at(master, other, 0.5_wp) - place_at(master, p, real(k - 1, wp))
       is_end = dot_product(middle, normal_at(master, p, real(k - 1, wp))) < 0.0_wp
    end function is_end
-
-   !> The point at an end of one side. n = 0: the end faces no place between two nodes of the other one, or what is beside it faces
-   !> nothing, or there is a point already.
-   subroutine find_point(model, pair, sides, side, k, p, one)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: pair
-      type(master_t), intent(in) :: sides(2)         !< slave, master
-      integer, intent(in) :: side                    !< which one ends
-      integer(ip), intent(in) :: k, p                !< at end 1 or 2 of this piece
-      type(contact_points_t), intent(out) :: one
-      type(sight_t) :: sight, beside
-      real(wp) :: end(2), x(2), normal(2), across(2), inwards(2), t(2), reach
-      integer(ip) :: j, pieces(2)
-
-      end = place_at(sides(side), p, real(k - 1, wp))
-      normal = normal_at(sides(side), p, real(k - 1, wp))
-      inwards = (3 - 2*k)*sides(side)%d(:, p)
-      across = normal_across(model%points(pair)%sliding, end, normal)
-      sight = look_along(end, across, norm2(inwards), sides(3 - side))
-      if (sight%piece == 0) return
-      pieces(side) = p
-      pieces(3 - side) = sight%piece
-      t(side) = real(k - 1, wp)
-      t(3 - side) = sight%t
-      x = place_at(sides(1), pieces(1), t(1))
-      normal = normal_across(model%points(pair)%sliding, x, normal_at(sides(1), pieces(1), t(1)))
-      associate (points => model%points(pair), face => norm2(sides(1)%d(:, pieces(1))))
-         reach = min(face, norm2(sides(2)%d(:, pieces(2))))
-         beside = look_along(end + (NEAR*reach/norm2(inwards))*inwards, across, reach, sides(3 - side))
-         if (beside%piece == 0 .or. abs(sight%distance) > face) return
-         if (minval(norm2(points%x(:, :points%n) - spread(x, 2, int(points%n)), dim=1)) <= 2*END_TOLERANCE*reach) return
-         call allocate_points(1_ip, MOST_ENTRIES, one)
-         one%n = 1
-         one%x(:, 1) = x
-         one%normal(:, 1) = normal
-         one%gap = dot_product(place_at(sides(2), pieces(2), t(2)) - x, normal)
-         if (abs(one%gap(1)) <= ROUND_OFFS*EPS_MACH*maxval(abs(x))) one%gap = 0.0_wp
-         one%length = NEAR*face
-         one%s = sum(norm2(sides(1)%d(:, :pieces(1) - 1), dim=1)) + t(1)*face
-         j = minloc(abs(points%s(:points%n) - one%s(1)), dim=1, kind=ip)
-         one%weight = one%length*points%weight(j)/points%length(j)
-         if (allocated(points%doubt)) one%doubt = points%doubt(j:j)
-         one%first(2) = 1
-         associate (slave => model%surfaces(model%pairs(pair)%slave)%faces, &
-                    master => model%surfaces(model%pairs(pair)%master)%faces)
-            call add_face(model%mesh, slave, pieces(1), t(1), 1.0_wp, one)
-            if (.not. sides(2)%rigid) call add_face(model%mesh, master, pieces(2), t(2), -1.0_wp, one)
-         end associate
-         one%node = one%entry(1)
-      end associate
-   end subroutine find_point
 
    !> The normal at a place across the motion in which both sides of a pair slide; the same where there is none.
    pure function normal_across(sliding, x, normal) result(n)

@@ -150,7 +150,7 @@ contains
          if (named .and. section%material == 0) call report_unknown(context, place, 'material', 'E-MATERIAL', &
                                                                     context%material_names)
          ok = ok .and. section%material > 0
-         call take_orientation(card, context, section, ok)
+         call take_orientation()
          number = SECTION_INVALID
          if (ok) then
             n_sections = n_sections + 1
@@ -160,42 +160,41 @@ contains
          end if
          if (i_set > 0) call assign_section(card%place, elset, section%elset, context, members_of(sets%sets(i_set)), number)
       end associate
-   end subroutine read_section_card
 
-   !> The axes of the material, where it has any.
-   subroutine take_orientation(card, context, section, ok)
-      type(card_t), intent(in) :: card
-      type(build_context_t), intent(inout) :: context
-      type(section_t), intent(inout) :: section
-      logical, intent(inout) :: ok                     !< the section has been understood so far
-      character(len=:), allocatable :: name, what
-      type(token_t) :: place
-      integer(ip) :: i
-      logical :: named
+   contains
 
-      if (has_option(context%deck, card, 'ORIENTATION')) then
-         call option_text(context%deck, card, 'ORIENTATION', name, named, place)
-         if (.not. named) return
-         i = find_name(context%orientation_names, name)
-         if (i == 0) call report_unknown(context, place, 'orientation', 'E-ORIENTATION', context%orientation_names)
-         if (i > 0) section%axis = context%orientation_axis(:, i)
-         ok = ok .and. i > 0 .and. any(abs(section%axis) > 0.0_wp)
-         ! Other programs print stresses along the axes of the material.
-         if (ok) then
-            what = ' turns nothing that is isotropic, and stresses are along x and y'
-            if (context%model%materials(section%material)%is_orthotropic) what = ' turns the material; stresses are along x and y'
-            call report_note(context%deck, place, 'N-ORIENTATION', 'the orientation '//name//what, keyword='ORIENTATION')
+      !> The axes of the material, where it has any.
+      subroutine take_orientation()
+         character(len=:), allocatable :: name, what
+         type(token_t) :: place
+         integer(ip) :: i
+         logical :: named
+
+         if (has_option(context%deck, card, 'ORIENTATION')) then
+            call option_text(context%deck, card, 'ORIENTATION', name, named, place)
+            if (.not. named) return
+            i = find_name(context%orientation_names, name)
+            if (i == 0) call report_unknown(context, place, 'orientation', 'E-ORIENTATION', context%orientation_names)
+            if (i > 0) section%axis = context%orientation_axis(:, i)
+            ok = ok .and. i > 0 .and. any(abs(section%axis) > 0.0_wp)
+            ! Other programs print stresses along the axes of the material.
+            if (ok) then
+               what = ' turns nothing that is isotropic, and stresses are along x and y'
+               if (context%model%materials(section%material)%is_orthotropic) &
+                  what = ' turns the material; stresses are along x and y'
+               call report_note(context%deck, place, 'N-ORIENTATION', 'the orientation '//name//what, keyword='ORIENTATION')
+            end if
          end if
-      end if
-      if (.not. ok) return
-      if (.not. context%model%materials(section%material)%is_orthotropic) return
-      ! the axes of a part turn with its instance, also those that no *ORIENTATION gives
-      if (card%scope > 0) section%axis = turned(context%motions(card%scope), section%axis)
-      if (section%formulation /= FORMULATION_BBAR) return
-      ok = .false.
-      call report_error(context%deck, card%place, 'E-FORMULATION', 'FORMULATION=BBAR is for isotropic materials', &
-                        expected='FORMULATION=STANDARD for an orthotropic material')
-   end subroutine take_orientation
+         if (.not. ok) return
+         if (.not. context%model%materials(section%material)%is_orthotropic) return
+         ! the axes of a part turn with its instance, also those that no *ORIENTATION gives
+         if (card%scope > 0) section%axis = turned(context%motions(card%scope), section%axis)
+         if (section%formulation /= FORMULATION_BBAR) return
+         ok = .false.
+         call report_error(context%deck, card%place, 'E-FORMULATION', 'FORMULATION=BBAR is for isotropic materials', &
+                           expected='FORMULATION=STANDARD for an orthotropic material')
+      end subroutine take_orientation
+   end subroutine read_section_card
 
    !> The thickness in a data line. Where the nodes have it, a line with another has no effect.
    subroutine read_thickness(deck, card, section, ok)

@@ -175,49 +175,64 @@ contains
          do i = card%first_line, card%first_line + card%n_lines - 1
             if (.not. context%deck%lines(i)%ok) cycle
             if (keyword_name(card) == 'NGEN') then
-               call read_ngen_line(context%deck%lines(i), context, from, to, n, step, ok)
+               call read_ngen_line(context%deck%lines(i), from, to)
             else
                call read_nfill_line(context%deck%lines(i), context, from, to, n, step, ok)
             end if
             if (.not. ok) cycle
             first_new = context%model%mesh%n_nodes + 1
-            call fill_lines(context, from, to, n, step, context%deck%lines(i)%first_token)
+            call fill_lines(context%deck%lines(i)%first_token)
             call add_numbers(members, from)
             call add_numbers(members, [(k, k=first_new, context%model%mesh%n_nodes)])
             call add_numbers(members, to)
          end do
       end associate
       call put_named_set(i_card, context, numbers_of(members))
+
+   contains
+
+      !> First node, last node, increment of the numbers, which leads from the first to the last.
+      subroutine read_ngen_line(line, from, to)
+         type(data_line_t), intent(in) :: line
+         integer(ip), allocatable, intent(out) :: from(:), to(:)   !< places of the two nodes
+         integer(ip) :: apart
+         logical :: good(3)
+
+         allocate (from(1), to(1))
+         call find_one_node(context, context%deck%tokens(line%first_token), from(1), good(1))
+         call find_one_node(context, line_item(context%deck, line, 2_ip), to(1), good(2))
+         call get_integer(context%deck, line_item(context%deck, line, 3_ip), WHAT_STEP, step, good(3), 1_ip)
+         ok = all(good)
+         if (.not. ok) return
+         associate (first => context%model%mesh%node_id(from(1)), last => context%model%mesh%node_id(to(1)))
+            apart = last - first
+            n = 0
+            if (step /= 0) n = apart/step
+            ok = n > 0 .and. n*step == apart .and. int(n, lp) <= most_nodes()
+            if (.not. ok) call report_error(context%deck, line_item(context%deck, line, merge(3_ip, 2_ip, line%n_tokens > 2)), &
+                                            'E-VALUE', 'steps of '//to_text(step)//' do not lead from node '//to_text(first)// &
+                                            ' to node '//to_text(last), expected='an increment that divides '//to_text(apart))
+         end associate
+         if (ok) ok = fits_memory(context%deck%tokens(line%first_token), context, int(n, lp), 0_lp)
+      end subroutine read_ngen_line
+
+      !> Nodes between each two, equally spaced, numbered by `step` from the first of the two.
+      subroutine fill_lines(place)
+         integer(ip), intent(in) :: place
+         real(wp) :: t, x(2)
+         integer(ip) :: i, k
+         logical :: ok
+
+         do i = 1, size(from, kind=ip)
+            do k = 1, n - 1
+               t = real(k, wp)/real(n, wp)
+               x = (1 - t)*context%model%mesh%x(:, from(i)) + t*context%model%mesh%x(:, to(i))
+               call place_node(context, context%model%mesh%node_id(from(i)) + k*step, x, place, ok)
+               if (.not. ok) return
+            end do
+         end do
+      end subroutine fill_lines
    end subroutine read_fill_card
-
-   !> First node, last node, increment of the numbers, which leads from the first to the last.
-   subroutine read_ngen_line(line, context, from, to, n, step, ok)
-      type(data_line_t), intent(in) :: line
-      type(build_context_t), intent(inout) :: context
-      integer(ip), allocatable, intent(out) :: from(:), to(:)   !< places of the two nodes
-      integer(ip), intent(out) :: n                    !< intervals between them
-      integer(ip), intent(out) :: step                 !< of the numbers, from interval to interval
-      logical, intent(out) :: ok
-      integer(ip) :: apart
-      logical :: good(3)
-
-      allocate (from(1), to(1))
-      call find_one_node(context, context%deck%tokens(line%first_token), from(1), good(1))
-      call find_one_node(context, line_item(context%deck, line, 2_ip), to(1), good(2))
-      call get_integer(context%deck, line_item(context%deck, line, 3_ip), WHAT_STEP, step, good(3), 1_ip)
-      ok = all(good)
-      if (.not. ok) return
-      associate (first => context%model%mesh%node_id(from(1)), last => context%model%mesh%node_id(to(1)))
-         apart = last - first
-         n = 0
-         if (step /= 0) n = apart/step
-         ok = n > 0 .and. n*step == apart .and. int(n, lp) <= most_nodes()
-         if (.not. ok) call report_error(context%deck, line_item(context%deck, line, merge(3_ip, 2_ip, line%n_tokens > 2)), &
-                                         'E-VALUE', 'steps of '//to_text(step)//' do not lead from node '//to_text(first)// &
-                                         ' to node '//to_text(last), expected='an increment that divides '//to_text(apart))
-      end associate
-      if (ok) ok = fits_memory(context%deck%tokens(line%first_token), context, int(n, lp), 0_lp)
-   end subroutine read_ngen_line
 
    !> Two sets of as many nodes, number of intervals, increment of the numbers, which stay positive and in the range of an integer.
    subroutine read_nfill_line(line, context, from, to, n, step, ok)
@@ -259,26 +274,6 @@ contains
       end associate
       if (ok) ok = fits_memory(context%deck%tokens(line%first_token), context, int(n - 1, lp)*size(from, kind=lp), 0_lp)
    end subroutine read_nfill_line
-
-   !> Nodes between each two, equally spaced, numbered by `step` from the first of the two.
-   subroutine fill_lines(context, from, to, n, step, place)
-      type(build_context_t), intent(inout) :: context
-      integer(ip), intent(in) :: from(:), to(:)        !< places
-      integer(ip), intent(in) :: n                     !< intervals
-      integer(ip), intent(in) :: step, place
-      real(wp) :: t, x(2)
-      integer(ip) :: i, k
-      logical :: ok
-
-      do i = 1, size(from, kind=ip)
-         do k = 1, n - 1
-            t = real(k, wp)/real(n, wp)
-            x = (1 - t)*context%model%mesh%x(:, from(i)) + t*context%model%mesh%x(:, to(i))
-            call place_node(context, context%model%mesh%node_id(from(i)) + k*step, x, place, ok)
-            if (.not. ok) return
-         end do
-      end do
-   end subroutine fill_lines
 
    !> The set that NSET= of a card names.
    subroutine put_named_set(i_card, context, members)

@@ -183,7 +183,7 @@ contains
          if (i_set > 0 .and. .not. is_cut) then
             call list_outline(context)
             if (face == 0 .or. (.not. is_refined(context%refinement) .and. face <= context%least_sides)) then
-               call take_outline(line, context, context%model%element_sets%sets(i_set), face, faces, ok)
+               call take_outline(context%model%element_sets%sets(i_set))
                return
             end if
          end if
@@ -205,6 +205,31 @@ contains
       end do
       ok = inside%n == 0
       if (.not. ok) call report_inside(context, line, numbers_of(inside), inside%n)
+
+   contains
+
+      !> Takes the faces of a set's elements that lie on the outline; one that is asked for and does not is an error.
+      subroutine take_outline(set)
+         type(set_t), intent(in) :: set
+         type(number_list_t) :: inside
+         integer(ip), allocatable :: elements(:)
+         integer(ip) :: i, n
+
+         n = member_count(set) + faces%n
+         call add_faces(outer_faces(context%model%mesh, context%around, numbers_among(set%members, context%outer_elements)), face, &
+                        faces)
+         n = n - faces%n                                  ! elements whose face lies inside the mesh
+         ok = face == 0 .or. n == 0
+         if (ok) return
+         elements = [integer(ip) ::]
+         if (has_room(SEVERITY_ERROR)) elements = members_of(set)
+         do i = 1, size(elements, kind=ip)                ! the first of them, as many as a message has
+            if (is_outer_face(context%model%mesh, context%around, elements(i), face)) cycle
+            call add_number(inside, context%model%mesh%element_id(elements(i)))
+            if (inside%n == MOST_IDS) exit
+         end do
+         call report_inside(context, line, numbers_of(inside), merge(n, 0_ip, inside%n > 0))
+      end subroutine take_outline
    end subroutine read_face_line
 
    !> The elements on the outline.
@@ -224,34 +249,6 @@ contains
          end do
       end associate
    end subroutine list_outline
-
-   !> Takes the faces of a set's elements that lie on the outline; one that is asked for and does not is an error.
-   subroutine take_outline(line, context, set, face, faces, ok)
-      type(data_line_t), intent(in) :: line
-      type(build_context_t), intent(in) :: context
-      type(set_t), intent(in) :: set
-      integer(ip), intent(in) :: face                  !< 0: all
-      type(face_list_t), intent(inout) :: faces
-      logical, intent(out) :: ok
-      type(number_list_t) :: inside
-      integer(ip), allocatable :: elements(:)
-      integer(ip) :: i, n
-
-      n = member_count(set) + faces%n
-      call add_faces(outer_faces(context%model%mesh, context%around, numbers_among(set%members, context%outer_elements)), face, &
-                     faces)
-      n = n - faces%n                                  ! elements whose face lies inside the mesh
-      ok = face == 0 .or. n == 0
-      if (ok) return
-      elements = [integer(ip) ::]
-      if (has_room(SEVERITY_ERROR)) elements = members_of(set)
-      do i = 1, size(elements, kind=ip)                ! the first of them, as many as a message has
-         if (is_outer_face(context%model%mesh, context%around, elements(i), face)) cycle
-         call add_number(inside, context%model%mesh%element_id(elements(i)))
-         if (inside%n == MOST_IDS) exit
-      end do
-      call report_inside(context, line, numbers_of(inside), merge(n, 0_ip, inside%n > 0))
-   end subroutine take_outline
 
    !> Adds those of some faces that have a number; 0: all.
    pure subroutine add_faces(some, face, faces)

@@ -56,7 +56,7 @@ contains
       is_table = amplitude%is_smooth .or. option_word(deck, card, 'DEFINITION') == 'TABULAR'
       do k = card%first_line, card%first_line + card%n_lines - 1
          good = deck%lines(k)%ok .and. is_table
-         if (good) call read_pairs(deck, deck%lines(k), n, amplitude, good)
+         if (good) call read_pairs(deck%lines(k), good)
          ok = ok .and. good
       end do
       amplitude%time = amplitude%time(:n)
@@ -64,53 +64,51 @@ contains
       if (n > 0) return
       amplitude%time = [0.0_wp]                        ! of a faulty card
       amplitude%value = [1.0_wp]
+
+   contains
+
+      !> The pairs of a line, behind the n that there are.
+      subroutine read_pairs(line, ok)
+         type(data_line_t), intent(in) :: line
+         logical, intent(out) :: ok
+         real(wp) :: time, value
+         integer(ip) :: i
+         logical :: good(2)
+
+         ok = mod(line%n_tokens, 2_ip) == 0 .and. line%n_tokens <= MOST_ITEMS
+         if (.not. ok) then
+            call report_error(deck, line_item(deck, line, min(line%n_tokens, MOST_ITEMS + 1)), 'E-ITEMS', to_text(line%n_tokens)// &
+                              ' items are no pairs of time and value', expected=WHAT_LINE)
+            return
+         end if
+         do i = 1, line%n_tokens, 2
+            call get_real(deck, line_item(deck, line, i), WHAT_TIME, time, good(1))
+            call get_real(deck, line_item(deck, line, i + 1), 'value, a real [-]', value, good(2))
+            if (good(1)) call check_time(line_item(deck, line, i), time, amplitude%time(:n), good(1))
+            ok = ok .and. all(good)
+            if (.not. all(good)) cycle
+            n = n + 1
+            amplitude%time(n) = time
+            amplitude%value(n) = value
+         end do
+      end subroutine read_pairs
+
+      !> A time is not negative, and comes after those that there are.
+      subroutine check_time(token, time, earlier, ok)
+         type(token_t), intent(in) :: token
+         real(wp), intent(in) :: time, earlier(:)
+         logical, intent(out) :: ok
+         character(len=:), allocatable :: wrong
+
+         ok = time >= 0.0_wp
+         wrong = ' is less than 0'
+         if (ok .and. size(earlier) > 0) then
+            ok = time > earlier(size(earlier))
+            wrong = ' does not come after '//to_text(earlier(size(earlier)))
+         end if
+         if (.not. ok) call report_error(deck, token, 'E-VALUE', 'the time '//to_text(time)//wrong, expected=WHAT_TIME)
+      end subroutine check_time
    end subroutine read_curve
-
-   !> The pairs of a line, behind the n that there are.
-   subroutine read_pairs(deck, line, n, amplitude, ok)
-      type(deck_t), intent(in) :: deck
-      type(data_line_t), intent(in) :: line
-      integer(ip), intent(inout) :: n
-      type(amplitude_t), intent(inout) :: amplitude
-      logical, intent(out) :: ok
-      real(wp) :: time, value
-      integer(ip) :: i
-      logical :: good(2)
-
-      ok = mod(line%n_tokens, 2_ip) == 0 .and. line%n_tokens <= MOST_ITEMS
-      if (.not. ok) then
-         call report_error(deck, line_item(deck, line, min(line%n_tokens, MOST_ITEMS + 1)), 'E-ITEMS', to_text(line%n_tokens)// &
-                           ' items are no pairs of time and value', expected=WHAT_LINE)
-         return
-      end if
-      do i = 1, line%n_tokens, 2
-         call get_real(deck, line_item(deck, line, i), WHAT_TIME, time, good(1))
-         call get_real(deck, line_item(deck, line, i + 1), 'value, a real [-]', value, good(2))
-         if (good(1)) call check_time(deck, line_item(deck, line, i), time, amplitude%time(:n), good(1))
-         ok = ok .and. all(good)
-         if (.not. all(good)) cycle
-         n = n + 1
-         amplitude%time(n) = time
-         amplitude%value(n) = value
-      end do
-   end subroutine read_pairs
-
-   !> A time is not negative, and comes after those that there are.
-   subroutine check_time(deck, token, time, earlier, ok)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: token
-      real(wp), intent(in) :: time, earlier(:)
-      logical, intent(out) :: ok
-      character(len=:), allocatable :: wrong
-
-      ok = time >= 0.0_wp
-      wrong = ' is less than 0'
-      if (ok .and. size(earlier) > 0) then
-         ok = time > earlier(size(earlier))
-         wrong = ' does not come after '//to_text(earlier(size(earlier)))
-      end if
-      if (.not. ok) call report_error(deck, token, 'E-VALUE', 'the time '//to_text(time)//wrong, expected=WHAT_TIME)
-   end subroutine check_time
 
    !> The amplitude that a card names becomes that of its lines; 0 where it is unknown, which is reported.
    subroutine take_amplitude(context, card)

@@ -86,69 +86,62 @@ contains
       call name_bodies(context%model, bodies)
       context%around = list_node_elements(context%model%mesh)   ! bolts may have cut the mesh since it was listed
       do i = 1, size(context%model%cuts, kind=ip)
-         call place_cut(context, bodies, i)
+         call place_cut()
       end do
+
+   contains
+
+      subroutine place_cut()
+         type(crossing_t), allocatable :: crossings(:)
+         integer(ip) :: k
+
+         associate (model => context%model, cut => context%model%cuts(i))
+            call find_cross_section(model%mesh, context%around, bodies%of_element, cut%ends, &
+                                    elements_to_cross(model, cut%elset), cut%section, crossings)
+            if (.not. any(crossings%is_taken)) then
+               call report_miss(crossings)
+            else if (.not. all(crossings%is_whole .or. .not. crossings%is_taken)) then   ! through what is left forces go, too
+               k = findloc(crossings%is_taken .and. .not. crossings%is_whole, .true., dim=1, kind=ip)
+               call report_error(context%deck, context%drawn_cuts%items(i), 'E-CROSSING', 'cut '//cut%name//' ends within body '// &
+                                 bodies%list(crossings(k)%body)%name, expected='a line through the whole of '// &
+                                 span_text(crossings(k)))
+            else
+               call warn_of_several(context, bodies, i, pack(crossings, crossings%is_taken))
+            end if
+         end associate
+      end subroutine place_cut
+
+      !> The cut meets nothing: where its line would, or where the bodies are.
+      subroutine report_miss(crossings)
+         type(crossing_t), intent(in) :: crossings(:)
+         character(len=:), allocatable :: text, hint
+         integer(ip) :: k
+
+         associate (cut => context%model%cuts(i), mesh => context%model%mesh)
+            text = 'cut '//cut%name//' meets no body'
+            if (cut%elset > 0) text = 'cut '//cut%name//' meets no element of '//context%model%element_sets%sets(cut%elset)%name
+            k = findloc(crossings%kind == INSIDE .and. crossings%is_wanted, .true., dim=1, kind=ip)
+            if (k > 0) then
+               hint = 'points farther apart: the line goes through '//span_text(crossings(k))
+            else
+               hint = 'a line through a body; the bodies lie between '//point_text(minval(mesh%x(:, :mesh%n_nodes), dim=2))// &
+                      ' and '//point_text(maxval(mesh%x(:, :mesh%n_nodes), dim=2))
+            end if
+         end associate
+         call report_error(context%deck, context%drawn_cuts%items(i), 'E-CROSSING', text, expected=hint)
+      end subroutine report_miss
+
+      !> `BODY from (x, y) to (x, y)`.
+      function span_text(crossing) result(text)
+         type(crossing_t), intent(in) :: crossing
+         character(len=:), allocatable :: text
+
+         associate (line => context%model%cuts(i)%section%line)
+            text = bodies%list(crossing%body)%name//', from '//point_text(point_at(line, crossing%from))//' to '// &
+                   point_text(point_at(line, crossing%to))
+         end associate
+      end function span_text
    end subroutine place_cuts
-
-   subroutine place_cut(context, bodies, i)
-      type(build_context_t), intent(inout) :: context
-      type(bodies_t), intent(in) :: bodies
-      integer(ip), intent(in) :: i                         !< place in the model's cuts
-      type(crossing_t), allocatable :: crossings(:)
-      integer(ip) :: k
-
-      associate (model => context%model, cut => context%model%cuts(i))
-         call find_cross_section(model%mesh, context%around, bodies%of_element, cut%ends, &
-                                 elements_to_cross(model, cut%elset), cut%section, crossings)
-         if (.not. any(crossings%is_taken)) then
-            call report_miss(context, bodies, i, crossings)
-         else if (.not. all(crossings%is_whole .or. .not. crossings%is_taken)) then   ! through what is left forces go, too
-            k = findloc(crossings%is_taken .and. .not. crossings%is_whole, .true., dim=1, kind=ip)
-            call report_error(context%deck, context%drawn_cuts%items(i), 'E-CROSSING', 'cut '//cut%name//' ends within body '// &
-                              bodies%list(crossings(k)%body)%name, expected='a line through the whole of '// &
-                              span_text(context, bodies, i, crossings(k)))
-         else
-            call warn_of_several(context, bodies, i, pack(crossings, crossings%is_taken))
-         end if
-      end associate
-   end subroutine place_cut
-
-   !> The cut meets nothing: where its line would, or where the bodies are.
-   subroutine report_miss(context, bodies, i, crossings)
-      type(build_context_t), intent(in) :: context
-      type(bodies_t), intent(in) :: bodies
-      integer(ip), intent(in) :: i
-      type(crossing_t), intent(in) :: crossings(:)
-      character(len=:), allocatable :: text, hint
-      integer(ip) :: k
-
-      associate (cut => context%model%cuts(i), mesh => context%model%mesh)
-         text = 'cut '//cut%name//' meets no body'
-         if (cut%elset > 0) text = 'cut '//cut%name//' meets no element of '//context%model%element_sets%sets(cut%elset)%name
-         k = findloc(crossings%kind == INSIDE .and. crossings%is_wanted, .true., dim=1, kind=ip)
-         if (k > 0) then
-            hint = 'points farther apart: the line goes through '//span_text(context, bodies, i, crossings(k))
-         else
-            hint = 'a line through a body; the bodies lie between '//point_text(minval(mesh%x(:, :mesh%n_nodes), dim=2))// &
-                   ' and '//point_text(maxval(mesh%x(:, :mesh%n_nodes), dim=2))
-         end if
-      end associate
-      call report_error(context%deck, context%drawn_cuts%items(i), 'E-CROSSING', text, expected=hint)
-   end subroutine report_miss
-
-   !> `BODY from (x, y) to (x, y)`.
-   function span_text(context, bodies, i, crossing) result(text)
-      type(build_context_t), intent(in) :: context
-      type(bodies_t), intent(in) :: bodies
-      integer(ip), intent(in) :: i
-      type(crossing_t), intent(in) :: crossing
-      character(len=:), allocatable :: text
-
-      associate (line => context%model%cuts(i)%section%line)
-         text = bodies%list(crossing%body)%name//', from '//point_text(point_at(line, crossing%from))//' to '// &
-                point_text(point_at(line, crossing%to))
-      end associate
-   end function span_text
 
    pure function point_text(x) result(text)
       real(wp), intent(in) :: x(2)

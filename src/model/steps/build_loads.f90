@@ -242,7 +242,7 @@ contains
       end if
       if (.not. any(label == VOLUME_LABELS)) then
          call read_face_load(context, label, 'DLOAD', load%kind, value, good)
-         if (ok .and. good) call load_faces(context, elements, label(len(label):), load, value)
+         if (ok .and. good) call load_faces(label(len(label):))
          return
       end if
       call get_real(context%deck, line_token(context, 3_ip), magnitude_of(label), magnitude, good)
@@ -258,36 +258,34 @@ contains
       case ('GRAV', 'CENTRIF')
          call load_masses(context, elements, load, label == 'CENTRIF', magnitude, ok)
       end select
+
+   contains
+
+      !> A load on the face of each element that the label ends with.
+      subroutine load_faces(digit)
+         character(len=1), intent(in) :: digit            !< of the label
+         type(number_list_t) :: inside
+         integer(ip) :: face, i
+         integer :: outcome
+         logical :: ok
+
+         call read_integer(digit, face, outcome)
+         call check_faces(context, line_token(context, 2_ip), elements, face, ok)
+         if (.not. ok) return
+         do i = 1, size(elements, kind=ip)
+            load%face = face_on_side(context%refinement, elements(i), face)
+            if (load%face == 0) cycle
+            call add_load(context, load, elements(i), value)
+            if (.not. is_outer_face(context%model%mesh, context%around, elements(i), load%face)) then
+               call add_number(inside, context%model%mesh%element_id(elements(i)))
+            end if
+         end do
+         if (inside%n > 0) call report_warning(context%deck, line_token(context, 2_ip), 'W-FACE', 'the '// &
+                                               trim(merge('traction', 'pressure', load%kind == LOAD_TRACTION))// &
+                                               ' acts inside the mesh, too, on face '//digit//' of element '// &
+                                               ids_text(numbers_of(inside)), expected='elements on the outline of the body')
+      end subroutine load_faces
    end subroutine read_dload_line
-
-   !> A load on the face of each element that the label ends with.
-   subroutine load_faces(context, elements, digit, load, value)
-      type(build_context_t), intent(inout) :: context
-      integer(ip), intent(in) :: elements(:)
-      character(len=1), intent(in) :: digit            !< of the label
-      type(condition_t), intent(inout) :: load
-      real(wp), intent(in) :: value(3)
-      type(number_list_t) :: inside
-      integer(ip) :: face, i
-      integer :: outcome
-      logical :: ok
-
-      call read_integer(digit, face, outcome)
-      call check_faces(context, line_token(context, 2_ip), elements, face, ok)
-      if (.not. ok) return
-      do i = 1, size(elements, kind=ip)
-         load%face = face_on_side(context%refinement, elements(i), face)
-         if (load%face == 0) cycle
-         call add_load(context, load, elements(i), value)
-         if (.not. is_outer_face(context%model%mesh, context%around, elements(i), load%face)) then
-            call add_number(inside, context%model%mesh%element_id(elements(i)))
-         end if
-      end do
-      if (inside%n > 0) call report_warning(context%deck, line_token(context, 2_ip), 'W-FACE', 'the '// &
-                                            trim(merge('traction', 'pressure', load%kind == LOAD_TRACTION))// &
-                                            ' acts inside the mesh, too, on face '//digit//' of element '// &
-                                            ids_text(numbers_of(inside)), expected='elements on the outline of the body')
-   end subroutine load_faces
 
    !> Loads upon the mass of elements, as a force per volume. GRAV: density times acceleration along a direction g, rho a g.
    !> CENTRIF: density times the square of the angular velocity times the way from the axis, rho w^2 S (x - x0), as a linear and a

@@ -130,71 +130,67 @@ contains
       logical :: ok(4), reaches_end
 
       associate (this => increments)
-         call get_time(deck, line, 2_ip, WHAT_PERIOD, 1.0_wp, this%period, ok(2))
-         call get_time(deck, line, 1_ip, WHAT_INITIAL, this%period, this%initial, ok(1))
-         if (all(ok(:2))) call check_time(deck, line, 1_ip, this%initial <= this%period, this%initial, WHAT_INITIAL, ok(1))
+         call get_time(2_ip, WHAT_PERIOD, 1.0_wp, this%period, ok(2))
+         call get_time(1_ip, WHAT_INITIAL, this%period, this%initial, ok(1))
+         if (all(ok(:2))) call check_time(1_ip, this%initial <= this%period, this%initial, WHAT_INITIAL, ok(1))
          if (.not. all(ok(:2))) return
          if (is_direct) then
-            call note_direct(deck, line)
+            call note_direct()
             this%least = this%initial
             this%greatest = this%initial
             return
          end if
          ! where as many increments as the step may have do not reach its end, they may grow, as in Abaqus and CalculiX
          reaches_end = real(this%most, wp)*this%initial >= (1.0_wp - ROUND_OFF)*this%period
-         call get_time(deck, line, 4_ip, WHAT_GREATEST, merge(this%initial, this%period, reaches_end), this%greatest, ok(4))
+         call get_time(4_ip, WHAT_GREATEST, merge(this%initial, this%period, reaches_end), this%greatest, ok(4))
          if (ok(4) .and. this%initial > this%greatest) then      ! it is the greatest, as in CalculiX
             call report_note(deck, line_item(deck, line, 4_ip), 'N-INCREMENT', 'the first increment, '//to_text(this%initial)// &
                              ', is longer than the greatest, '//to_text(this%greatest)//', and becomes it', keyword='')
             this%initial = this%greatest
          end if
-         call get_time(deck, line, 3_ip, WHAT_LEAST, min(this%initial, LEAST_PART*this%period), this%least, ok(3))
-         if (ok(3)) call check_time(deck, line, 3_ip, this%least <= this%initial, this%least, WHAT_LEAST, ok(3))
+         call get_time(3_ip, WHAT_LEAST, min(this%initial, LEAST_PART*this%period), this%least, ok(3))
+         if (ok(3)) call check_time(3_ip, this%least <= this%initial, this%least, WHAT_LEAST, ok(3))
       end associate
+
+   contains
+
+      !> A time; 0 is its default, as in Abaqus and CalculiX.
+      subroutine get_time(item, what, default, time, ok)
+         integer(ip), intent(in) :: item
+         character(len=*), intent(in) :: what
+         real(wp), intent(in) :: default
+         real(wp), intent(out) :: time
+         logical, intent(out) :: ok
+
+         call get_real(deck, line_item(deck, line, item), what, time, ok, default)
+         if (ok) call check_time(item, time >= 0.0_wp, time, what, ok)
+         if (ok .and. .not. time > 0.0_wp) time = default
+      end subroutine get_time
+
+      subroutine check_time(item, in_range, time, what, ok)
+         integer(ip), intent(in) :: item
+         logical, intent(in) :: in_range
+         real(wp), intent(in) :: time
+         character(len=*), intent(in) :: what
+         logical, intent(out) :: ok
+
+         ok = in_range
+         if (.not. ok) call report_error(deck, line_item(deck, line, item), 'E-VALUE', to_text(time)//' is out of range', &
+                                         expected=what)
+      end subroutine check_time
+
+      !> DIRECT: all increments are like the first, whatever the least and the greatest are said to be.
+      subroutine note_direct()
+         integer(ip) :: i
+
+         do i = 3, line%n_tokens
+            if (is_empty_token(line_item(deck, line, i))) cycle
+            call report_note(deck, line_item(deck, line, i), 'N-IGNORED', 'with DIRECT all increments are like the first: no '// &
+                             'least or greatest', keyword='')
+            return
+         end do
+      end subroutine note_direct
    end subroutine read_times
-
-   !> A time; 0 is its default, as in Abaqus and CalculiX.
-   subroutine get_time(deck, line, item, what, default, time, ok)
-      type(deck_t), intent(in) :: deck
-      type(data_line_t), intent(in) :: line
-      integer(ip), intent(in) :: item
-      character(len=*), intent(in) :: what
-      real(wp), intent(in) :: default
-      real(wp), intent(out) :: time
-      logical, intent(out) :: ok
-
-      call get_real(deck, line_item(deck, line, item), what, time, ok, default)
-      if (ok) call check_time(deck, line, item, time >= 0.0_wp, time, what, ok)
-      if (ok .and. .not. time > 0.0_wp) time = default
-   end subroutine get_time
-
-   subroutine check_time(deck, line, item, in_range, time, what, ok)
-      type(deck_t), intent(in) :: deck
-      type(data_line_t), intent(in) :: line
-      integer(ip), intent(in) :: item
-      logical, intent(in) :: in_range
-      real(wp), intent(in) :: time
-      character(len=*), intent(in) :: what
-      logical, intent(out) :: ok
-
-      ok = in_range
-      if (.not. ok) call report_error(deck, line_item(deck, line, item), 'E-VALUE', to_text(time)//' is out of range', &
-                                      expected=what)
-   end subroutine check_time
-
-   !> DIRECT: all increments are like the first, whatever the least and the greatest are said to be.
-   subroutine note_direct(deck, line)
-      type(deck_t), intent(in) :: deck
-      type(data_line_t), intent(in) :: line
-      integer(ip) :: i
-
-      do i = 3, line%n_tokens
-         if (is_empty_token(line_item(deck, line, i))) cycle
-         call report_note(deck, line_item(deck, line, i), 'N-IGNORED', 'with DIRECT all increments are like the first: no '// &
-                          'least or greatest', keyword='')
-         return
-      end do
-   end subroutine note_direct
 
    !> WRITE[, FREQUENCY=]; the last card counts.
    subroutine read_restart_card(deck, card, model)

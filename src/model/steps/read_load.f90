@@ -224,7 +224,7 @@ contains
       ok = ok .and. all(good)
       if (.not. ok) return
       if (maxval(abs(a)) > 0.0_wp) a = a/maxval(abs(a))
-      call check_axis(context, is_ring, point, a, ok)
+      call check_axis()
       if (.not. ok) return
       if (is_ring) then
          way(1) = 1.0_wp
@@ -235,33 +235,31 @@ contains
          way = [a(2)*a(2), -a(1)*a(2), a(1)*a(1)]
       end if
       there = -[way(1)*point(1) + way(2)*point(2), way(2)*point(1) + way(3)*point(2)]
+
+   contains
+
+      subroutine check_axis()
+         logical :: is_across
+
+         ok = .false.
+         is_across = abs(a(3)) > 0.0_wp
+         if (.not. any(abs(a) > 0.0_wp)) then
+            call report_error(context%deck, line_token(context, AXIS), 'E-VALUE', 'the axis of CENTRIF has no direction', &
+                              expected=WHAT_AXIS)
+         else if (is_ring .and. (is_across .or. abs(a(1)) > 0.0_wp .or. abs(point(1)) > 0.0_wp .or. abs(point(3)) > 0.0_wp)) then
+            call report_error(context%deck, line_token(context, FIRST), 'E-VALUE', &
+                              'axisymmetric elements turn about the axis y alone', &
+                              expected='0, 0, 0, 0, 1, 0: a point of the axis and its direction')
+         else if (is_across .and. any(abs(a(:2)) > 0.0_wp)) then
+            call report_error(context%deck, line_token(context, AXIS), 'E-VALUE', &
+                              'an oblique axis of CENTRIF pushes out of the plane', expected=WHAT_AXIS)
+         else if (.not. is_across .and. abs(point(3)) > 0.0_wp) then
+            call report_error(context%deck, line_token(context, FIRST + 2), 'E-VALUE', &
+                              'an axis of CENTRIF beside the plane pushes out of it', expected='z = 0 [L]')
+         else
+            ok = .true.
+         end if
+      end subroutine check_axis
    end subroutine read_spin
-
-   subroutine check_axis(context, is_ring, point, a, ok)
-      type(build_context_t), intent(in) :: context
-      logical, intent(in) :: is_ring
-      real(wp), intent(in) :: point(3), a(3)
-      logical, intent(out) :: ok
-      logical :: is_across
-
-      ok = .false.
-      is_across = abs(a(3)) > 0.0_wp
-      if (.not. any(abs(a) > 0.0_wp)) then
-         call report_error(context%deck, line_token(context, AXIS), 'E-VALUE', 'the axis of CENTRIF has no direction', &
-                           expected=WHAT_AXIS)
-      else if (is_ring .and. (is_across .or. abs(a(1)) > 0.0_wp .or. abs(point(1)) > 0.0_wp .or. abs(point(3)) > 0.0_wp)) then
-         call report_error(context%deck, line_token(context, FIRST), 'E-VALUE', &
-                           'axisymmetric elements turn about the axis y alone', &
-                           expected='0, 0, 0, 0, 1, 0: a point of the axis and its direction')
-      else if (is_across .and. any(abs(a(:2)) > 0.0_wp)) then
-         call report_error(context%deck, line_token(context, AXIS), 'E-VALUE', &
-                           'an oblique axis of CENTRIF pushes out of the plane', expected=WHAT_AXIS)
-      else if (.not. is_across .and. abs(point(3)) > 0.0_wp) then
-         call report_error(context%deck, line_token(context, FIRST + 2), 'E-VALUE', &
-                           'an axis of CENTRIF beside the plane pushes out of it', expected='z = 0 [L]')
-      else
-         ok = .true.
-      end if
-   end subroutine check_axis
 
 end module atrito_read_load

@@ -65,16 +65,62 @@ contains
       if (allocated(model%amplitudes)) then
          factor = [(factor_at(model%amplitudes, int(a, ip), moment%step_time, moment%time), a=1, size(model%amplitudes))]
       end if
-      call values_at(step%prescribed, factor, share, now%prescribed)
-      call values_at(step%node_loads, factor, share, now%node_loads)
-      call values_at(step%rigid_prescribed, factor, share, now%rigid_prescribed)
-      call values_at(step%rigid_loads, factor, share, now%rigid_loads)
-      call element_loads_at(step%element_loads, factor, share, now%element_loads)
+      call values_at(step%prescribed, now%prescribed)
+      call values_at(step%node_loads, now%node_loads)
+      call values_at(step%rigid_prescribed, now%rigid_prescribed)
+      call values_at(step%rigid_loads, now%rigid_loads)
+      call element_loads_at(step%element_loads, now%element_loads)
       if (.not. allocated(step%heating)) return
       now%heating = step%heating
       if (share == 1.0_wp) return
       now%heating = share*step%heating
       if (allocated(step%heating_from)) now%heating = between(step%heating_from, step%heating, share)
+
+   contains
+
+      pure subroutine values_at(values, now)
+         type(nodal_values_t), intent(in) :: values
+         type(nodal_values_t), intent(out) :: now
+         real(wp) :: from
+         integer(ip) :: i, a
+
+         call take_values(values, now)
+         from = 0.0_wp
+         do i = 1, values%n
+            a = amplitude_of(values%amplitude, i)
+            if (a > 0) then
+               now%value(i) = values%value(i)*factor(a)
+            else
+               if (allocated(values%from)) from = values%from(i)
+               now%value(i) = between(from, values%value(i), share)
+            end if
+         end do
+      end subroutine values_at
+
+      pure subroutine element_loads_at(loads, now)
+         type(element_load_t), intent(in) :: loads
+         type(element_load_t), intent(out) :: now
+         real(wp) :: from(3)
+         integer(ip) :: i, a
+
+         if (loads%n == 0) return
+         call take_loads(loads, loads%value, [(i, i=1, loads%n)], now)
+         from = 0.0_wp
+         do i = 1, loads%n
+            a = amplitude_of(loads%amplitude, i)
+            associate (value => now%value(:, i), kind => loads%kind(i))
+               if (a > 0) then
+                  value = scaled(kind, value, factor(a))
+               else if (kind == LOAD_HYDROSTATIC) then
+                  value = scaled(kind, value, share)
+               else
+                  if (allocated(loads%from)) from = loads%from(:, i)
+                  value = between(from, value, share)
+               end if
+            end associate
+         end do
+         if (share < 1.0_wp .and. allocated(loads%from)) call add_levels_that_go(loads, share, now)
+      end subroutine element_loads_at
    end subroutine act_at
 
    pure elemental real(wp) function between(from, to, share)
@@ -83,27 +129,6 @@ contains
       between = to
       if (share < 1.0_wp) between = from + share*(to - from)
    end function between
-
-   pure subroutine values_at(values, factor, share, now)
-      type(nodal_values_t), intent(in) :: values
-      real(wp), intent(in) :: factor(:)             !< of each amplitude
-      real(wp), intent(in) :: share
-      type(nodal_values_t), intent(out) :: now
-      real(wp) :: from
-      integer(ip) :: i, a
-
-      call take_values(values, now)
-      from = 0.0_wp
-      do i = 1, values%n
-         a = amplitude_of(values%amplitude, i)
-         if (a > 0) then
-            now%value(i) = values%value(i)*factor(a)
-         else
-            if (allocated(values%from)) from = values%from(i)
-            now%value(i) = between(from, values%value(i), share)
-         end if
-      end do
-   end subroutine values_at
 
    !> The values of the end of a step alone.
    pure subroutine take_values(values, now)
@@ -117,33 +142,6 @@ contains
       now%value = values%value
       if (allocated(values%source)) now%source = values%source
    end subroutine take_values
-
-   pure subroutine element_loads_at(loads, factor, share, now)
-      type(element_load_t), intent(in) :: loads
-      real(wp), intent(in) :: factor(:)             !< of each amplitude
-      real(wp), intent(in) :: share
-      type(element_load_t), intent(out) :: now
-      real(wp) :: from(3)
-      integer(ip) :: i, a
-
-      if (loads%n == 0) return
-      call take_loads(loads, loads%value, [(i, i=1, loads%n)], now)
-      from = 0.0_wp
-      do i = 1, loads%n
-         a = amplitude_of(loads%amplitude, i)
-         associate (value => now%value(:, i), kind => loads%kind(i))
-            if (a > 0) then
-               value = scaled(kind, value, factor(a))
-            else if (kind == LOAD_HYDROSTATIC) then
-               value = scaled(kind, value, share)
-            else
-               if (allocated(loads%from)) from = loads%from(:, i)
-               value = between(from, value, share)
-            end if
-         end associate
-      end do
-      if (share < 1.0_wp .and. allocated(loads%from)) call add_levels_that_go(loads, share, now)
-   end subroutine element_loads_at
 
    !> Some loads, with their values.
    pure subroutine take_loads(loads, value, wanted, now)
