@@ -29,12 +29,11 @@ module atrito_run
    use atrito_frame_spool, only: begin_frames, end_frames, frame_spool_t
    use atrito_history, only: solve_history
    use atrito_kinds, only: ip, wp, lp
-   use atrito_load_model, only: check_adaptable, check_bounds, load_model, prepare_observations, take_next_mesh
+   use atrito_load_model, only: check_adaptable, check_bounds, load_model, prepare_observations, take_next_mesh, note_older_results
    use atrito_mesh, only: signed_area
    use atrito_messages, only: count_messages, message_t, add_message, SEVERITY_WARNING
    use atrito_model, only: model_t
    use atrito_observations, only: observations_t, observation_names
-   use atrito_older_results, only: note_older_results
    use atrito_option_table, only: place_of_word
    use atrito_page, only: page_t, add_above_rule, print_page
    use atrito_plot_files, only: plot_folder, solution_folder, list_plots, PLOTS_OF_RUN

@@ -6,8 +6,7 @@ module atrito_card_data
    use atrito_foreign_keywords, only: is_foreign_variable, variable_of_component, may_be_empty
    use atrito_items, only: get_real, has_option, option_word
    use atrito_keyword, only: form_t, item_t, ANY_NUMBER, KIND_INTEGER, KIND_REAL, KIND_WORD
-   use atrito_keyword_table, only: find_choice, choice_names
-   use atrito_keyword_text, only: form_text, item_text, choices_text
+   use atrito_keyword_table, only: find_choice, choice_names, form_text, item_text, choices_text
    use atrito_strings, only: string_t, append_string, same_name, to_text, upper_case
    implicit none (type, external)
    private

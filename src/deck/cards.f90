@@ -7,8 +7,7 @@ module atrito_cards
    use atrito_items, only: get_real, get_integer, get_name
    use atrito_keyword, only: keyword_t, option_spec_t, KIND_FLAG, KIND_NAME, KIND_WORD, KIND_OPTIONAL_WORD, KIND_REAL, KIND_INTEGER
    use atrito_keyword_table, only: define_keyword, find_keyword, find_option_spec, find_choice, keyword_names, option_names, &
-                                   choice_names, packed
-   use atrito_keyword_text, only: option_text_of, with_dimension, choices_text
+                                   choice_names, packed, option_text_of, with_dimension, choices_text
    use atrito_messages, only: ID_OUTSIDE, SEVERITY_ERROR, has_room
    use atrito_lexer, only: find_equals
    use atrito_strings, only: string_t, nearest_names, upper_case

@@ -9,8 +9,7 @@ module atrito_reader
    use atrito_diagnostics, only: report_error, report_deck_error
    use atrito_files, only: read_file
    use atrito_gmsh_file, only: read_gmsh_text
-   use atrito_gmsh_mesh, only: gmsh_mesh_t
-   use atrito_gmsh_words, only: fault_t
+   use atrito_gmsh_mesh, only: gmsh_mesh_t, fault_t
    use atrito_includes, only: path_of_include, may_include, is_told
    use atrito_instances, only: expand_instances
    use atrito_items, only: has_option, option_text, option_word
@@ -18,7 +17,7 @@ module atrito_reader
    use atrito_keyword_table, only: define_keyword, take_table
    use atrito_lexer, only: line_t, items_t, take_line, split_items, count_data_lines, LINE_COMMENT, LINE_KEYWORD, LINE_DATA
    use atrito_memory, only: available_memory, memory_text
-   use atrito_note_edits, only: note_edits
+   use atrito_deck_as_run, only: note_edits
    use atrito_plain_lines, only: take_plain_lines
    use atrito_parameters, only: settings_t, read_settings, define_parameter, check_settings
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE

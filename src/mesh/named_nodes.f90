@@ -5,8 +5,7 @@
 module atrito_named_nodes
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
-   use atrito_ranges, only: numbers_among
-   use atrito_sets, only: set_list_t, find_set, members_of
+   use atrito_sets, only: numbers_among, set_list_t, find_set, members_of
    use atrito_sorting, only: each_once
    use atrito_strings, only: ends_with, to_text, upper_case
    implicit none (type, external)

@@ -18,7 +18,7 @@ module atrito_build_context
    use atrito_kinds, only: ip, lp, wp
    use atrito_messages, only: count_messages, SEVERITY_ERROR
    use atrito_model, only: model_t
-   use atrito_motion, only: motion_t
+   use atrito_coordinates, only: motion_t
    use atrito_named_nodes, only: part_place_name
    use atrito_name_list, only: name_list_t, add_name, find_name, has_name
    use atrito_numbers, only: read_integer, NUMBER_OK

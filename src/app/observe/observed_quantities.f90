@@ -6,8 +6,8 @@ module atrito_observed_quantities
    use atrito_linear_quantity, only: linear_part_t, linear_quantity_t, PART_FACES, PART_PAIR, PART_REACTION, PART_STRESS, &
                                      PART_VOLUME
    use atrito_messages, only: message_t
-   use atrito_model, only: model_t, SURFACE_ELEMENTS
-   use atrito_observed_arguments, only: put_place
+   use atrito_model, only: model_t
+   use atrito_observed_names, only: put_place
    use atrito_observed_places, only: index_of_surface
    use atrito_observed_terms, only: pair_quantity_list, term_t, NODAL_FIELDS, POINT_FIELDS, TAKE_LARGEST, TAKE_LEAST, TAKE_MEAN, &
                                     TAKE_SUM, TERM_NODES, TERM_PAIR, TERM_POINTS

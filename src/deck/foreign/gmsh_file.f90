@@ -3,9 +3,9 @@
 !> A line is what the format says of it: what is missing or too much is reported where it is, and never taken from the next line.
 module atrito_gmsh_file
    use atrito_element_table, only: MOST_NODES
-   use atrito_gmsh_mesh, only: gmsh_mesh_t, add_part, trim_gmsh_mesh, note_key, key_of, keys_t, find_part, add_element
-   use atrito_gmsh_words, only: words_t, fault_t, next_line, take_word, take_integer, take_real, end_line, fail, word_is, go_on, &
-                                begin_line, read_head, check_count, check_number
+   use atrito_gmsh_mesh, only: gmsh_mesh_t, add_part, trim_gmsh_mesh, note_key, key_of, keys_t, find_part, add_element, words_t, &
+       fault_t, next_line, take_word, take_integer, take_real, end_line, fail, word_is, go_on, begin_line, read_head, check_count, &
+                               check_number
    use atrito_kinds, only: ip, wp
    use atrito_strings, only: to_text
    implicit none (type, external)

@@ -3,9 +3,8 @@ module atrito_help
    use atrito_foreign_keywords, only: subject_t, ask_keyword, foreign_keywords, take_subjects, NOT_FOREIGN, FOREIGN_IGNORED, &
                                       FOREIGN_OUTSIDE
    use atrito_keyword, only: keyword_t, option_spec_t, form_t
-   use atrito_keyword_table, only: keyword_table, find_keyword, packed
-   use atrito_keyword_text, only: form_text, option_text_of, choices_text, lines_text, condition_text, &
-                                  with_dimension, item_meaning, LEVEL_TEXTS
+   use atrito_keyword_table, only: keyword_table, find_keyword, packed, form_text, option_text_of, choices_text, lines_text, &
+                                   condition_text, with_dimension, item_meaning, LEVEL_TEXTS
    use atrito_strings, only: break_line, string_t, append_string, upper_case, recoded
    implicit none (type, external)
    private

@@ -1,6 +1,6 @@
 !> *BOUNDARY: prescribed displacements, and the words ENCASTRE, XSYMM, ... that hold several dofs at once.
 module atrito_build_supports
-   use atrito_build_amplitudes, only: take_amplitude, refuse_step_options
+   use atrito_build_steps, only: take_amplitude, refuse_step_options
    use atrito_build_rigid_bodies, only: can_move, is_reference, ROTATION_DOF
    use atrito_deck, only: data_line_t, last_item, token_t, token_text, keyword_name, is_empty_token, LEVEL_MODEL
    use atrito_diagnostics, only: report_error, report_note
@@ -10,13 +10,12 @@ module atrito_build_supports
    use atrito_kinds, only: ip, wp
    use atrito_load_lists, only: condition_t, condition_list_t, add_condition, dof_slot, SLOTS
    use atrito_parameters, only: evaluate_function
-   use atrito_propagation, only: is_inherited, propagate, removes_all
+   use atrito_propagation, only: is_inherited, propagate, removes_all, open_source
    use atrito_references, only: find_nodes, in_no_element
    use atrito_refined_members, only: edge_value
    use atrito_refinement, only: edge_place, is_refined
    use atrito_growth, only: number_list_t, add_number, numbers_of
    use atrito_row_dofs, only: has_no_unknowns, WHAT_DOF, AT_REFERENCE
-   use atrito_sources, only: open_source
    use atrito_strings, only: same_name, string_t, to_text
    implicit none (type, external)
    private

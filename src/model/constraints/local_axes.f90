@@ -1,12 +1,11 @@
 !> *TRANSFORM: local axes of nodes, along which supports, forces and equations are given.
 module atrito_local_axes
    use atrito_build_context, only: build_context_t, ids_text
-   use atrito_coordinates, only: get_reals
+   use atrito_coordinates, only: get_reals, moved, turned
    use atrito_deck, only: card_t, token_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error, report_note
    use atrito_items, only: get_real, option_text, option_word
    use atrito_kinds, only: ip, wp
-   use atrito_motion, only: moved, turned
    use atrito_references, only: find_nodes
    use atrito_refinement, only: is_refined
    use atrito_strings, only: to_text

@@ -11,7 +11,7 @@
 module atrito_found_contact
    use atrito_bodies, only: bodies_t, find_bodies
    use atrito_body_names, only: name_bodies
-   use atrito_contact_rules, only: contact_rules_t, add_rule, last_rule, sort_rules, ANY_BODY
+   use atrito_build_contact, only: contact_rules_t, add_rule, last_rule, sort_rules, ANY_BODY
    use atrito_diagnostics, only: report_note, report_warning
    use atrito_build_context, only: build_context_t, keep_token
    use atrito_face_geometry, only: face_arc_length

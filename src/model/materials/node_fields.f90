@@ -16,7 +16,7 @@ module atrito_node_fields
    use atrito_growth, only: number_list_t, add_number, numbers_of
    use atrito_plane_state, only: TAPERED_STATE, IS_TAPERED
    use atrito_propagation, only: removes_all
-   use atrito_read_elastic, only: get_positive
+   use atrito_coordinates, only: get_positive
    use atrito_references, only: find_nodes, in_no_element
    use atrito_refinement, only: map_element, refinement_t
    use atrito_strings, only: to_text

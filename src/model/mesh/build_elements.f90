@@ -10,7 +10,7 @@ module atrito_build_elements
    use atrito_mesh, only: add_element, find_element, find_node
    use atrito_model_memory, only: fits_memory
    use atrito_growth, only: number_list_t, add_number, add_numbers, numbers_of
-   use atrito_plain_numbers, only: read_plain_elements, SLICE
+   use atrito_build_nodes, only: read_plain_elements, SLICE
    use atrito_references, only: get_id, find_one_node, find_one_element
    use atrito_sets, only: grow_set
    use atrito_strings, only: to_text

@@ -13,12 +13,11 @@ module atrito_build_sets
    use atrito_items, only: get_integer, has_option, option_text, option_integer
    use atrito_kinds, only: ip, lp, wp
    use atrito_model_memory, only: fits_memory
-   use atrito_motion, only: motion_t, read_shift, read_rotation, moved
+   use atrito_coordinates, only: motion_t, read_shift, read_rotation, moved
    use atrito_numbers, only: read_integer, NUMBER_OK
    use atrito_places, only: read_places
-   use atrito_ranges, only: ranges_t, add_range, add_numbers, add_ranges, count_numbers
+   use atrito_sets, only: ranges_t, add_range, add_numbers, add_ranges, count_numbers, set_list_t, find_set, grow_set, members_of
    use atrito_references, only: get_id, find_nodes, find_elements, report_unknown
-   use atrito_sets, only: set_list_t, find_set, grow_set, members_of
    use atrito_strings, only: to_text, upper_case
    implicit none (type, external)
    private

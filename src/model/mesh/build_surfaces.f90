@@ -1,6 +1,6 @@
 !> *SURFACE, and the surfaces that a *BLOCK has by itself.
 module atrito_build_surfaces
-   use atrito_coordinates, only: centre_arc, get_point
+   use atrito_coordinates, only: centre_arc, get_point, moved
    use atrito_build_lines, only: put_curve_surfaces, take_node_surface, add_surface
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, is_id_token, keyword_name
    use atrito_diagnostics, only: report_error
@@ -13,15 +13,13 @@ module atrito_build_surfaces
    use atrito_mesh, only: elements_of_square, side_count
    use atrito_messages, only: has_room, SEVERITY_ERROR
    use atrito_model, only: surface_t, SURFACE_SEGMENTS
-   use atrito_motion, only: moved
    use atrito_name_list, only: add_name, find_name, has_name
    use atrito_growth, only: number_list_t, add_number, numbers_of
    use atrito_numbers, only: read_integer
-   use atrito_ranges, only: numbers_among
+   use atrito_sets, only: numbers_among, set_t, find_set, member_count, members_of
    use atrito_references, only: find_elements, check_faces
    use atrito_refined_members, only: face_on_side, fine_elements
    use atrito_refinement, only: is_refined
-   use atrito_sets, only: set_t, find_set, member_count, members_of
    use atrito_sorting, only: each_once
    use atrito_strings, only: same_name, upper_case
    implicit none (type, external)

@@ -1,15 +1,14 @@
 !> *NSET, AT: nodes by their places.
 module atrito_places
    use atrito_build_context, only: build_context_t, node_finder_t
-   use atrito_coordinates, only: get_coordinate
+   use atrito_coordinates, only: get_coordinate, moved
    use atrito_deck, only: card_t, data_line_t, scope_t, token_t, line_item
    use atrito_diagnostics, only: report_error, report_note
    use atrito_items, only: has_option, option_text
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: mesh_t, side_count, face_end
-   use atrito_motion, only: moved
    use atrito_named_nodes, only: nodes_of_elements
-   use atrito_ranges, only: ranges_t, add_range, add_numbers
+   use atrito_sets, only: ranges_t, add_range, add_numbers
    use atrito_references, only: find_elements
    use atrito_sorting, only: sorted_places, first_at_least, order_key
    use atrito_strings, only: same_name, to_text

@@ -2,7 +2,7 @@
 module atrito_build_loads
    use atrito_deck, only: is_empty_token, token_t, token_text, keyword_name
    use atrito_diagnostics, only: report_error, report_warning, report_note
-   use atrito_build_amplitudes, only: take_amplitude
+   use atrito_build_steps, only: take_amplitude
    use atrito_build_context, only: build_context_t, line_token, replaced_t, ids_text, is_invalid, has_errors, has_lost_elements
    use atrito_build_rigid_bodies, only: can_move, is_reference, ROTATION_DOF
    use atrito_faces, only: is_outer_face
@@ -15,13 +15,13 @@ module atrito_build_loads
    use atrito_growth, only: number_list_t, add_number, numbers_of
    use atrito_numbers, only: read_integer
    use atrito_plane_state, only: STATES
-   use atrito_propagation, only: is_of_step, removes_all, propagate, list_inherited, apply_condition, set_to_zero, warn_of_replaced
+   use atrito_propagation, only: is_of_step, removes_all, propagate, list_inherited, apply_condition, set_to_zero, &
+                                 warn_of_replaced, open_source
    use atrito_read_load, only: read_face_function, read_face_load, read_direction, read_spin, has_no_rest, magnitude_of
    use atrito_references, only: find_nodes, find_elements, find_surface, check_faces
    use atrito_refined_members, only: face_on_side
    use atrito_refinement, only: is_refined
    use atrito_row_dofs, only: has_no_unknowns, WHAT_DOF, AT_REFERENCE
-   use atrito_sources, only: open_source
    use atrito_strings, only: to_text, upper_case
    implicit none (type, external)
    private

@@ -4,8 +4,7 @@ module atrito_build_requests
    use atrito_deck, only: deck_t, card_t, token_t, token_text, option_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t
-   use atrito_build_cuts, only: read_cut_card
-   use atrito_build_paths, only: read_path_card
+   use atrito_drawn_lines, only: read_cut_card, read_path_card
    use atrito_propagation, only: is_of_step
    use atrito_foreign_keywords, only: variable_of_component
    use atrito_items, only: find_option, has_option, option_integer, option_real, option_text, option_word, refuse_option

@@ -2,7 +2,7 @@
 module atrito_model
    use atrito_bilateral_rows, only: bilateral_rows_t
    use atrito_controls, only: controls_t
-   use atrito_cross_section, only: cross_section_t
+   use atrito_crossings, only: cross_section_t
    use atrito_element_places, only: place_t
    use atrito_faces, only: face_list_t
    use atrito_friction_law, only: FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_POINTS, KERNEL_LINE
