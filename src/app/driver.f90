@@ -2,7 +2,7 @@
 module atrito_driver
    use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
    use, intrinsic :: iso_c_binding, only: c_int, c_int64_t
-   use atrito_bash_completion, only: compose_bash_completion
+   use atrito_help_pages, only: compose_bash_completion, compose_man_page, compose_options, compose_topic, compose_usage
    use atrito_blas_info, only: choose_blas_kernels, set_blas_threads, blas_buffer_bytes, claim_blas_buffers
    use atrito_body_cache, only: body_cache_t
    use atrito_check_plots, only: write_check_plots
@@ -15,7 +15,6 @@ module atrito_driver
    use atrito_files, only: check_all_own
    use atrito_folder_claim, only: folder_claim_t, claim_folder, release_folder
    use atrito_help, only: help_overview, help_keyword, help_manual
-   use atrito_help_pages, only: compose_man_page, compose_options, compose_topic, compose_usage
    use atrito_keyword_table, only: keyword_table, keyword_names
    use atrito_kinds, only: ip, lp
    use atrito_libraries, only: library_t, add_libraries, list_libraries, LOADED

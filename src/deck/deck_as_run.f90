@@ -10,10 +10,9 @@ module atrito_deck_as_run
    use atrito_card_data, only: form_applies
    use atrito_deck, only: deck_t, after_byte_order_mark, count_lines, card_t, token_t, data_line_t, token_text, is_empty_token, &
                           KEYWORD_UNKNOWN
-   use atrito_deck_expressions, only: evaluate_at, index_of_parameter
+   use atrito_items, only: evaluate_at, index_of_parameter, has_option, option_text
    use atrito_edits, only: put_before_steps, append_edit, append_known_edit, take_known_edit
    use atrito_expression_names, only: next_name
-   use atrito_items, only: has_option, option_text
    use atrito_keyword, only: KIND_NAME, KIND_REAL, KIND_INTEGER, KIND_ID, KIND_ID_OR_NAME, KIND_REAL_OR_NAME, KIND_TEXT
    use atrito_kinds, only: ip, wp
    use atrito_messages, only: count_messages, SEVERITY_ERROR

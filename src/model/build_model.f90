@@ -50,9 +50,8 @@ module atrito_build_model
    use atrito_points, only: contact_points_t
    use atrito_propagation, only: keep_sources
    use atrito_refined_deck, only: note_free_sides
-   use atrito_row_dofs, only: add_rigid_rows
+   use atrito_row_dofs, only: add_rigid_rows, turn_supports
    use atrito_strings, only: deck_name
-   use atrito_turn_supports, only: turn_supports
    use atrito_units, only: units_t, N_UNITS
    implicit none (type, external)
    private

@@ -12,7 +12,7 @@ module atrito_stability_limit
    use atrito_folder_claim, only: folder_claim_t, release_folder
    use atrito_frame_spool, only: begin_frames, end_frames, frame_spool_t
    use atrito_history, only: solve_history
-   use atrito_end_points, only: add_end_points
+   use atrito_pairing, only: add_end_points
    use atrito_kinds, only: ip, lp, wp
    use atrito_load_model, only: load_model, prepare_observations
    use atrito_mesh, only: find_node

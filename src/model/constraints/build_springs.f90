@@ -13,8 +13,8 @@ module atrito_build_springs
    use atrito_model, only: spring_t
    use atrito_name_list, only: name_list_t, add_name, find_name, names_of
    use atrito_references, only: element_of_deck, find_one_node, get_id, report_unknown
-   use atrito_row_dofs, only: arm_of, check_row_dof, check_row_nodes, has_no_unknowns, row_node, row_terms, &
-                              row_weight, TERMS_A_DOF, WHAT_DOF
+   use atrito_row_dofs, only: arm_of, check_row_dof, check_row_nodes, has_no_unknowns, row_node, row_terms, row_weight, &
+                              TERMS_A_DOF, WHAT_DOF
    use atrito_strings, only: string_t, to_text
    implicit none (type, external)
    private

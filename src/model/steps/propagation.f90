@@ -10,11 +10,10 @@ module atrito_propagation
    use atrito_step_loads, only: factor_at, time_before
    use atrito_build_context, only: build_context_t, inherited_t, place_text, replaced_t
    use atrito_deck, only: token_t, keyword_name, line_item, token_text, is_empty_token
-   use atrito_deck_expressions, only: evaluate_at
+   use atrito_items, only: evaluate_at, get_real, has_option, option_text, option_word
    use atrito_diagnostics, only: report_error, report_warning
    use atrito_growth, only: resize
    use atrito_id_map, only: id_map_t, add_id
-   use atrito_items, only: get_real, has_option, option_text, option_word
    use atrito_kinds, only: ip, wp
    use atrito_load_lists, only: condition_t, condition_list_t, add_condition, scaled
    use atrito_model, only: LOAD_HYDROSTATIC
