@@ -31,7 +31,7 @@ module atrito_load_model
    use atrito_timers, only: start_phase, stop_phase
    implicit none (type, external)
    private
-   public :: load_model, read_model, prepare_observations, check_adaptable, check_bounds, take_next_mesh, note_older_results
+   public :: load_model, read_model, prepare_observations, check_bounds, take_next_mesh, note_older_results
 
    integer, parameter :: MOST_PARAMETERS = 3         !< named
    character(len=*), parameter :: BY_OPTION = ' (--set)'
@@ -157,17 +157,6 @@ contains
       end subroutine read_again
 
    end subroutine take_next_mesh
-
-   !> --adapt begins anew with each mesh: there is nothing to go on from. status: STATUS_USAGE.
-   subroutine check_adaptable(command, model, status)
-      type(command_t), intent(in) :: command        !< --adapt and --restart are read
-      type(model_t), intent(in) :: model            !< its *RESTART is read
-      type(status_t), intent(out) :: status         !< STATUS_OK or STATUS_USAGE
-
-      if (command%adapt > 0.0_wp .and. (model%restart_every > 0 .or. allocated(command%restart))) then
-         call set_status(status, STATUS_USAGE, '--adapt: each mesh begins anew, without *RESTART and --restart')
-      end if
-   end subroutine check_adaptable
 
    !> --bound is a proof, and no restart file has it. status: STATUS_USAGE.
    subroutine check_bounds(command, model, status)

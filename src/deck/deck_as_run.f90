@@ -73,7 +73,10 @@ contains
          integer(ip) :: position, child, last
 
          last = len(deck%sources(source)%text, kind=ip)
-         position = after_mark(deck%sources(source)%text)
+         associate (text => deck%sources(source)%text)
+            position = after_byte_order_mark(text)
+            if (index(text(position:), DECK_MARK) == 1) position = position + index(text(position:)//LINE_FEED, LINE_FEED, kind=ip)
+         end associate
          child = next_child(deck, source, source)
          do while (child > 0)
             associate (included => deck%sources(child))
@@ -109,15 +112,6 @@ contains
          position = max(position, last + 1)
       end subroutine put_edited
    end subroutine take_deck_as_run
-
-   !> The first character behind the line by which a deck says so.
-   pure integer(ip) function after_mark(text) result(position)
-      character(len=*), intent(in) :: text
-
-      position = after_byte_order_mark(text)
-      if (index(text(position:), DECK_MARK) /= 1) return
-      position = position + index(text(position:)//LINE_FEED, LINE_FEED, kind=ip)
-   end function after_mark
 
    !> The next file, not a mesh, that one includes; 0: there is none.
    pure integer(ip) function next_child(deck, source, before) result(child)

@@ -2,7 +2,7 @@
 !>
 !> Expressions that stand in a deck: the parameters that they may use, and their faults at their places.
 module atrito_items
-   use atrito_deck, only: deck_t, card_t, option_t, token_t, token_text, part_of, is_empty_token, written_length, keyword_name, &
+   use atrito_deck, only: deck_t, card_t, option_t, token_t, token_text, part_of, is_empty_token, is_quoted, keyword_name, &
                           reading_order, data_line_t, line_item
    use atrito_diagnostics, only: report_error
    use atrito_expression_names, only: is_name, is_reserved_name, next_name, reserved_names
@@ -330,7 +330,7 @@ contains
       character(len=*), intent(in), optional :: keyword  !< for `atrito help KEYWORD`
 
       name = token_text(deck, token)
-      ok = len(name) > 0 .and. written_length(deck, token) <= LONGEST_NAME
+      ok = len(name) > 0 .and. token%last - token%first + 1 - merge(2, 0, is_quoted(deck, token)) <= LONGEST_NAME   ! as written
       if (len(name) == 0) then
          call report_error(deck, token, 'E-MISSING', 'a name is missing', expected=what, keyword=keyword)
       else if (.not. ok) then

@@ -13,7 +13,7 @@ module atrito_reader
    use atrito_includes, only: path_of_include, may_include, is_told
    use atrito_instances, only: expand_instances
    use atrito_items, only: has_option, option_text, option_word
-   use atrito_keyword, only: keyword_t, KIND_TEXT
+   use atrito_keyword, only: KIND_TEXT
    use atrito_keyword_table, only: define_keyword, take_table
    use atrito_lexer, only: line_t, items_t, take_line, split_items, count_data_lines, LINE_COMMENT, LINE_KEYWORD, LINE_DATA
    use atrito_memory, only: available_memory, memory_text
@@ -255,7 +255,11 @@ contains
          reading%mode = MODE_SKIP
          if (card%keyword /= KEYWORD_UNKNOWN) then
             call check_options(deck, card)
-            reading%mode = mode_of(deck%keywords(card%keyword))
+            reading%mode = MODE_ITEMS
+            associate (forms => deck%keywords(card%keyword)%forms)
+               if (size(forms) > 0) reading%mode = merge(MODE_TEXT, MODE_ITEMS, forms(1)%items(1)%kind == KIND_TEXT)
+            end associate
+            if (card%name == 'PARAMETER') reading%mode = MODE_PARAMETER
          else if (card%meant == 'NODE' .or. card%meant == 'ELEMENT') then
             reading%mode = MODE_ITEMS                     ! the numbers of its lines are not unknown, they are lost
          else if (card%meant == 'PARAMETER') then
@@ -303,15 +307,6 @@ contains
                            'a stray quote', expected='quotes round a whole item: "my set"')
       end if
    end subroutine split_line
-
-   pure integer function mode_of(keyword) result(mode)
-      type(keyword_t), intent(in) :: keyword
-
-      mode = MODE_ITEMS
-      if (keyword%name == 'PARAMETER') mode = MODE_PARAMETER
-      if (mode == MODE_PARAMETER .or. size(keyword%forms) == 0) return
-      if (keyword%forms(1)%items(1)%kind == KIND_TEXT) mode = MODE_TEXT
-   end function mode_of
 
    !> Checks the data lines of the card read last.
    subroutine finish_card(deck)

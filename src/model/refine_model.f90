@@ -10,7 +10,7 @@ module atrito_refine_model
    use atrito_deck, only: token_t, data_line_t, deck_t, keyword_name, line_item, token_text
    use atrito_diagnostics, only: report_deck_error, report_error
    use atrito_element_table, only: CORNERS_OF, DEGREE_OF
-   use atrito_element_trees, only: element_trees_t, begin_trees, cut_all, cut_leaves, list_leaves, code_of_tree, is_code, take_code
+   use atrito_element_trees, only: element_trees_t, begin_trees, cut_all, cut_leaves, list_leaves, code_of_tree, take_code
    use atrito_faces, only: list_node_elements
    use atrito_growth, only: growing_text_t, append_text
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
@@ -200,7 +200,7 @@ contains
       if (.not. ok) return
       place = line_item(context%deck, line, 2_ip)
       word = token_text(context%deck, place)
-      if (is_code(word)) then
+      if (len(word) > 0 .and. verify(word, 'CLcl') == 0) then   ! as --adapt writes them
          do i = 1, size(elements, kind=ip)
             call take_code(elements(i), word, trees)
          end do

@@ -20,7 +20,6 @@ module atrito_build_pretension
    use atrito_mesh, only: face_end
    use atrito_mesh_cut, only: cut_mesh, find_cut, mesh_cut_t
    use atrito_model, only: rigid_body_t, SURFACE_ELEMENTS
-   use atrito_node_fields, only: double_temperatures
    use atrito_references, only: find_surface
    use atrito_strings, only: to_text
    use atrito_row_dofs, only: row_weight
@@ -150,7 +149,12 @@ contains
       call cut_mesh(changes, context%model%mesh)
       call note_place(context%nodes%place, context%model%mesh%n_nodes, 0_ip)
       context%nodes%place(cut%own) = context%nodes%place(cut%other)
-      call double_temperatures(context%model%steps, cut%other)
+      do i = 1, size(context%model%steps, kind=ip)
+         associate (step => context%model%steps(i))
+            if (allocated(step%heating)) step%heating = [step%heating, step%heating(cut%other)]
+            if (allocated(step%heating_from)) step%heating_from = [step%heating_from, step%heating_from(cut%other)]
+         end associate
+      end do
       if (allocated(context%node_thickness)) context%node_thickness = [context%node_thickness, context%node_thickness(cut%other)]
       context%around = list_node_elements(context%model%mesh)
    end subroutine cut_along

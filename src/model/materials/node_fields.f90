@@ -12,7 +12,6 @@ module atrito_node_fields
    use atrito_items, only: get_real
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
-   use atrito_model, only: step_t
    use atrito_growth, only: number_list_t, add_number, numbers_of
    use atrito_plane_state, only: TAPERED_STATE, IS_TAPERED
    use atrito_propagation, only: removes_all
@@ -22,7 +21,7 @@ module atrito_node_fields
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: read_temperatures, read_node_thickness, refine_node_fields, taper_elements, check_temperatures, double_temperatures
+   public :: read_temperatures, read_node_thickness, refine_node_fields, taper_elements, check_temperatures
 
    !> Two values of one node are the same when they differ by less than this part of them: expressions are rounded.
    real(wp), parameter :: SAME_VALUE = 1.0e-12_wp
@@ -221,18 +220,6 @@ contains
       end do
       values = value(1, :)
    end subroutine refine_field
-
-   !> New nodes behind the others, as warm as those that they double.
-   pure subroutine double_temperatures(steps, nodes)
-      type(step_t), intent(inout) :: steps(:)    !< heating of each gets longer
-      integer(ip), intent(in) :: nodes(:)        !< places of those that are doubled
-      integer(ip) :: i
-
-      do i = 1, size(steps, kind=ip)
-         if (allocated(steps(i)%heating)) steps(i)%heating = [steps(i)%heating, steps(i)%heating(nodes)]
-         if (allocated(steps(i)%heating_from)) steps(i)%heating_from = [steps(i)%heating_from, steps(i)%heating_from(nodes)]
-      end do
-   end subroutine double_temperatures
 
    !> What grows warmer and has no *EXPANSION is reported; where nothing expands there are no temperatures.
    subroutine check_temperatures(context)

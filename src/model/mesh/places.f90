@@ -2,7 +2,7 @@
 module atrito_places
    use atrito_build_context, only: build_context_t, node_finder_t
    use atrito_coordinates, only: get_coordinate, moved
-   use atrito_deck, only: card_t, data_line_t, scope_t, token_t, line_item
+   use atrito_deck, only: card_t, data_line_t, token_t, line_item
    use atrito_diagnostics, only: report_error, report_note
    use atrito_items, only: has_option, option_text
    use atrito_kinds, only: ip, lp, wp
@@ -49,7 +49,11 @@ contains
       associate (mesh => context%model%mesh, lines => context%deck%lines(card%first_line:card%first_line + card%n_lines - 1))
          if (has_set .or. scope > 0) then
             if (.not. has_set) elements = [(i, i=1, mesh%n_elements)]
-            if (scope > 0) elements = pack(elements, is_of_scope(context%deck%scopes(scope), mesh%element_id(elements)))
+            if (scope > 0) then
+               associate (id => mesh%element_id(elements) - context%deck%scopes(scope)%shift)   ! in the instance, from 1
+                  elements = pack(elements, id > 0 .and. id <= context%deck%scopes(scope)%span)
+               end associate
+            end if
             call make_finder(mesh, elements, own)
             call read_lines(lines, card%scope, own, context, members)
          else
@@ -73,15 +77,6 @@ contains
          if (same_name(context%deck%scopes(scope)%name, name)) return
       end do
    end function scope_of_option
-
-   !> A number of the model is one of an instance.
-   pure elemental logical function is_of_scope(scope, id)
-      type(scope_t), intent(in) :: scope
-      integer(ip), intent(in) :: id
-
-      is_of_scope = id > scope%shift
-      if (is_of_scope) is_of_scope = id - scope%shift <= scope%span
-   end function is_of_scope
 
    subroutine read_lines(lines, scope, finder, context, members)
       type(data_line_t), intent(in) :: lines(:)

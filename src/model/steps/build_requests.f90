@@ -49,8 +49,12 @@ contains
       type(build_context_t), intent(inout) :: context
       type(card_t), intent(in) :: card
       type(step_t), intent(inout) :: step
+      type(option_t) :: option
+      logical :: found
 
-      if (asks_for_nothing(context%deck, card)) return
+      call find_option(context%deck, card, 'FREQUENCY', option, found)
+      if (found) found = verify(token_text(context%deck, option%value), '0') == 0
+      if (found) return                                ! FREQUENCY=0: what earlier steps asked for is not printed any more
       associate (requests => step%requests, every => step%requests%every)
          select case (keyword_name(card))
          case ('CONTROLS')
@@ -91,16 +95,6 @@ contains
          end select
       end associate
    end subroutine read_card
-
-   !> FREQUENCY=0: what earlier steps asked for is not printed any more.
-   logical function asks_for_nothing(deck, card)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
-      type(option_t) :: option
-
-      call find_option(deck, card, 'FREQUENCY', option, asks_for_nothing)
-      if (asks_for_nothing) asks_for_nothing = verify(token_text(deck, option%value), '0') == 0
-   end function asks_for_nothing
 
    !> FREQUENCY= of a table or of the field file, one in a step.
    subroutine read_frequency(deck, card, every)
