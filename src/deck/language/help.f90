@@ -2,6 +2,7 @@
 module atrito_help
    use atrito_foreign_keywords, only: subject_t, ask_keyword, foreign_keywords, take_subjects, NOT_FOREIGN, FOREIGN_IGNORED, &
                                       FOREIGN_OUTSIDE
+   use atrito_introduction_lines, only: take_introduction_lines
    use atrito_keyword, only: keyword_t, option_spec_t, form_t
    use atrito_keyword_table, only: keyword_table, find_keyword, packed, form_text, option_text_of, choices_text, lines_text, &
                                    condition_text, with_dimension, item_meaning, LEVEL_TEXTS
@@ -15,24 +16,6 @@ module atrito_help
 
    !> Where a keyword stands, by LEVEL_*, in the manual.
    character(len=23), parameter :: PLACES(3) = [character(len=23) :: 'In the model', 'In a step', 'In the model or a step']
-
-   character(len=107), parameter :: INTRODUCTION(16) = [character(len=107) :: &
-                                                        '# Keywords of a deck', &
-                                                        '', &
-                     '*A reference for those who write decks. After it you know what a keyword, its options and its lines mean.*', &
-                                                        '', &
-                           'This page is printed by `atrito help all > docs/user/keywords.md` from the table of the deck reader;', &
-                                      'do not edit it. `atrito help KEYWORD` prints one section, `atrito help` what each is for.', &
-                                                        '', &
-                            'A deck is made of lines `*KEYWORD, OPTION=value`, each with its data lines of items between commas.', &
-                               '`**` begins a comment. A comma at the end of a keyword line continues it. Names are without case', &
-                               'and have at most 80 characters; "quotes" may stand round them; all digits means a number. A real', &
-                             'may be written as an integer, an integer not as a real. An empty item takes its default. The model', &
-                                                        'stands before \*STEP, a step between \*STEP and \*END STEP.', &
-                                                        '', &
-                            'A + marks what is atrito''s own; the rest is read by Abaqus or CalculiX too. What is ignored has no', &
-                           'effect, and a note says so. Items with a dimension are reals; F is force, L length, T time, in units', &
-                                                        'of yours that are consistent.']
 
 contains
 
@@ -92,11 +75,8 @@ contains
       integer :: i
       character(len=:), allocatable :: text
 
-      allocate (lines(0))
+      call take_introduction_lines(lines)
       table = keyword_table()
-      do i = 1, size(INTRODUCTION)
-         call append_string(lines, trim(INTRODUCTION(i)))
-      end do
       do i = 1, size(table)
          call append_block(lines, '## '//escaped(title_of(table(i))))
          text = upper_case(table(i)%summary(:1))//table(i)%summary(2:)//'. '//trim(PLACES(table(i)%level))
