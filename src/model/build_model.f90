@@ -42,7 +42,7 @@ module atrito_build_model
    use atrito_memory, only: available_memory
    use atrito_mesh, only: trim_mesh
    use atrito_messages, only: message_mark_t, mark_messages, forget_messages
-   use atrito_model, only: model_t, observed_line_t
+   use atrito_model, only: model_t, observed_line_t, units_t, N_UNITS
    use atrito_coordinates, only: read_shift, read_rotation
    use atrito_node_fields, only: read_temperatures, read_node_thickness, check_temperatures
    use atrito_pairing, only: order_slaves, pair_all
@@ -52,7 +52,6 @@ module atrito_build_model
    use atrito_refined_deck, only: note_free_sides
    use atrito_row_dofs, only: add_rigid_rows, turn_supports
    use atrito_strings, only: deck_name
-   use atrito_units, only: units_t, N_UNITS
    implicit none (type, external)
    private
    public :: build_model, list_observed

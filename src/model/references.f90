@@ -10,10 +10,9 @@ module atrito_references
    use atrito_kinds, only: ip
    use atrito_mesh, only: find_node, find_element
    use atrito_name_list, only: name_list_t, find_name
-   use atrito_named_nodes, only: find_named_nodes
+   use atrito_sets, only: find_named_nodes, set_list_t, find_set, members_of
    use atrito_refined_members, only: fine_elements
    use atrito_refinement, only: is_refined
-   use atrito_sets, only: set_list_t, find_set, members_of
    use atrito_strings, only: to_text, upper_case
    implicit none (type, external)
    private

@@ -12,9 +12,8 @@ module atrito_observed_places
    use atrito_messages, only: message_t
    use atrito_model, only: model_t, nodal_values_t, SURFACE_ELEMENTS
    use atrito_name_list, only: names_of
-   use atrito_named_nodes, only: find_named_nodes
+   use atrito_sets, only: find_named_nodes, find_set, members_of
    use atrito_numbers, only: read_integer, NUMBER_OK
-   use atrito_sets, only: find_set, members_of
    use atrito_strings, only: string_t, append_string, same_name, to_text
    implicit none (type, external)
    private

@@ -6,7 +6,7 @@
 module atrito_build_gmsh
    use atrito_build_context, only: build_context_t, note_places, note_undetermined_mesh, ids_text
    use atrito_build_nodes, only: put_node_set
-   use atrito_curves, only: add_curve
+   use atrito_build_parts, only: add_curve
    use atrito_diagnostics, only: report_error, report_note
    use atrito_element_table, only: CORNERS_OF, MOST_NODES
    use atrito_gmsh_mesh, only: gmsh_mesh_t, group_name, part_name

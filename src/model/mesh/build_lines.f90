@@ -7,7 +7,7 @@
 module atrito_build_lines
    use atrito_build_context, only: build_context_t, spoil_number, invalidate_name, keep_token, ids_text, has_errors
    use atrito_build_nodes, only: put_node_set
-   use atrito_curves, only: add_curve, find_curve_faces, find_node_faces, nodes_of_no_face
+   use atrito_build_parts, only: add_curve, find_curve_faces, find_node_faces, nodes_of_no_face
    use atrito_deck, only: card_t, token_t, token_text, line_item, is_id_token, is_empty_token, keyword_name
    use atrito_diagnostics, only: report_error, report_note
    use atrito_faces, only: add_face, drop_repeated, face_list_t

@@ -7,8 +7,7 @@ module atrito_places
    use atrito_items, only: has_option, option_text
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: mesh_t, side_count, face_end
-   use atrito_named_nodes, only: nodes_of_elements
-   use atrito_sets, only: ranges_t, add_range, add_numbers
+   use atrito_sets, only: nodes_of_elements, ranges_t, add_range, add_numbers
    use atrito_references, only: find_elements
    use atrito_sorting, only: sorted_places, first_at_least, order_key
    use atrito_strings, only: same_name, to_text
