@@ -70,7 +70,9 @@ contains
       else
          lines = format_message(message)
          if (c_is_terminal(STANDARD_ERROR) /= 0) lines = format_message(message, terminal_width())
-         if (wants_colours()) lines(1)%s = paint_message(message, lines(1)%s)
+         if (can_rewrite()) then
+            if (len(variable('NO_COLOR')) == 0) lines(1)%s = paint_message(message, lines(1)%s)
+         end if
          call print_lines(lines, error_unit)
       end if
    end subroutine print_message
@@ -134,13 +136,6 @@ contains
       end do
       flush (unit, iostat=ios)                       ! a run that is interrupted later has told it
    end subroutine print_lines
-
-   !> Of a terminal, where the user does not object: NO_COLOR, where it is set, is empty.
-   logical function wants_colours()
-
-      wants_colours = can_rewrite()
-      if (wants_colours) wants_colours = len(variable('NO_COLOR')) == 0
-   end function wants_colours
 
    !> Columns of the terminal: as it says, as COLUMNS says, or 80.
    integer function terminal_width() result(width)

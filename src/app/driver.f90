@@ -1,21 +1,22 @@
 !> Does what the command line asks for: reads, solves, writes, and tells how it went.
+!>
+!> What ranks other than the first do: they wait for what the first wants of them, and do it.
 module atrito_driver
    use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
    use, intrinsic :: iso_c_binding, only: c_int, c_int64_t
-   use atrito_bash_completion, only: compose_bash_completion
    use atrito_blas_info, only: choose_blas_kernels, set_blas_threads, blas_buffer_bytes, claim_blas_buffers
    use atrito_body_cache, only: body_cache_t
+   use atrito_buffer, only: buffer_t, take
    use atrito_check_plots, only: write_check_plots
    use atrito_command_line, only: command_t, confine_command, output_folder, parse_command, wrong, wants_json, fetch_arguments, &
-                                  TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_LIMIT, &
-                                  TASK_OPTIONS, TASK_VERSION
+           TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_LIMIT, TASK_OPTIONS, TASK_VERSION
    use atrito_compare, only: comparison_t, begin_comparison, compare_paths
    use atrito_compare_rules, only: leave_out, read_rules, take_tables
    use atrito_console, only: print_line, print_lines, print_message, print_messages, print_status
    use atrito_files, only: check_all_own
    use atrito_folder_claim, only: folder_claim_t, claim_folder, release_folder
    use atrito_help, only: help_overview, help_keyword, help_manual
-   use atrito_help_pages, only: compose_man_page, compose_options, compose_topic, compose_usage
+   use atrito_help_pages, only: compose_bash_completion, compose_man_page, compose_options, compose_topic, compose_usage
    use atrito_keyword_table, only: keyword_table, keyword_names
    use atrito_kinds, only: ip, lp
    use atrito_libraries, only: library_t, add_libraries, list_libraries, LOADED
@@ -24,21 +25,26 @@ module atrito_driver
    use atrito_messages, only: message_t, add_warning, clear_messages, SEVERITY_ERROR, SEVERITY_WARNING
    use atrito_model, only: model_t
    use atrito_model_memory, only: allow_large_meshes
-   use atrito_mpi, only: has_mpi, mpi_name, rank_count
+   use atrito_mpi, only: has_mpi, mpi_name, rank_count, receive_buffer, send_buffer
    use atrito_mumps, only: has_mumps, mumps_trouble, mumps_version
    use atrito_observations, only: observations_t
    use atrito_page, only: page_t, add_item, plural, print_page
+   use atrito_part_service, only: answer_question
    use atrito_plot_files, only: plot_folder, list_plots, PLOTS_OF_CHECK
+   use atrito_rank_memory, only: serve_memory
+   use atrito_rank_services, only: await_message, SERVICE_END, SERVICE_FIELDS, SERVICE_MEMORY, SERVICE_PART, SERVICE_RUNS
    use atrito_reporter, only: reporter_t
    use atrito_results, only: scene_t
    use atrito_run, only: run_deck, solve_options
+   use atrito_run_request, only: take_request
    use atrito_screen, only: compose_check
+   use atrito_shared_fields, only: answer_fields
    use atrito_solve, only: survey_scene
    use atrito_stability_limit, only: run_limit
    use atrito_status, only: status_t, is_ok, STATUS_OK, STATUS_USAGE, STATUS_FILE, STATUS_INTERNAL, STATUS_DECK
    use atrito_strings, only: string_t, join, upper_case, nearest_names, to_text
-   use atrito_study, only: run_study
-   use atrito_sweep, only: run_sweep
+   use atrito_study, only: run_study, serve_study
+   use atrito_sweep, only: run_sweep, serve_sweep
    use atrito_system, only: guard_interrupts, keep_freed_memory, address_space_limit, c_count_threads, c_has_address_space, &
                             stack_limit, stack_of_thread
    use atrito_threads, only: set_threads
@@ -46,7 +52,7 @@ module atrito_driver
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
    implicit none (type, external)
    private
-   public :: begin_program, run_program
+   public :: begin_program, run_program, serve
 
    !> The stack that the program wants; the least with which scenes were solved is 192 KiB.
    integer(lp), parameter :: LEAST_STACK = 2_lp**19
@@ -347,5 +353,39 @@ contains
       message%text = text
       call print_message(message, command%json)
    end subroutine print_problem
+
+   !> Comes back when nothing more is wanted.
+   subroutine serve()
+      type(buffer_t) :: request, answer
+      type(command_t) :: command
+      type(status_t) :: status
+      integer(ip) :: service
+
+      do
+         call await_message()
+         call receive_buffer(request, 0_ip)
+         call take(request, service)
+         select case (service)
+         case (SERVICE_END)
+            return
+         case (SERVICE_PART)
+            answer = buffer_t()
+            call answer_question(request, answer)
+            call send_buffer(answer, 0_ip)
+         case (SERVICE_FIELDS)
+            call answer_fields(request, answer)
+            call send_buffer(answer, 0_ip)
+         case (SERVICE_MEMORY)
+            call serve_memory()
+         case (SERVICE_RUNS)
+            call take_request(request, command)
+            call confine_command(command, status)   ! rank 0 has told what is wrong
+            if (command%task == TASK_SWEEP) call serve_sweep(command)
+            if (command%task == TASK_STUDY) call serve_study(command)
+         case default
+            error stop 'atrito_service: an unknown service is wanted'
+         end select
+      end do
+   end subroutine serve
 
 end module atrito_driver

@@ -1,27 +1,29 @@
 !> From a deck to a model that is going to be solved: of a run, with its messages, and of each next mesh of --adapt.
+!>
+!> The results of another run that a folder still holds when this one writes none.
 module atrito_load_model
    use atrito_adaptation, only: adaptation_t, follow_error, give_up
    use atrito_build_model, only: build_model
    use atrito_build_requests, only: refuse_field_files
-   use atrito_build_trees, only: card_of_trees
    use atrito_command_line, only: command_t, output_folder
    use atrito_console, only: print_message, print_messages, print_status
    use atrito_deck, only: deck_t
    use atrito_deck_as_run, only: take_deck_as_run
    use atrito_element_table, only: KINDS, kind_named
    use atrito_element_trees, only: element_trees_t
-   use atrito_files, only: forget_inputs, protect_input
+   use atrito_files, only: forget_inputs, protect_input, file_exists, read_file
    use atrito_given_options, only: options_of_run
    use atrito_hdf5, only: has_hdf5
    use atrito_kinds, only: ip, wp
-   use atrito_messages, only: message_t, clear_messages, count_messages, sort_messages, SEVERITY_ERROR
-   use atrito_model, only: model_t
+   use atrito_messages, only: message_t, clear_messages, count_messages, sort_messages, SEVERITY_ERROR, add_note
+   use atrito_model, only: model_t, provenance_t
    use atrito_observations, only: observations_t, read_observations
-   use atrito_older_results, only: note_older_results
    use atrito_parameters, only: list_parameters
    use atrito_patched_text, only: digest_of_texts
    use atrito_plane_state, only: FULL_STATE
+   use atrito_read_table, only: comment_of, table_path
    use atrito_reader, only: read_deck
+   use atrito_refine_model, only: card_of_trees
    use atrito_reporter, only: reporter_t, report_phase
    use atrito_results, only: history_t, last_frame
    use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_DECK
@@ -29,7 +31,10 @@ module atrito_load_model
    use atrito_timers, only: start_phase, stop_phase
    implicit none (type, external)
    private
-   public :: load_model, read_model, prepare_observations, check_adaptable, check_bounds, take_next_mesh
+   public :: load_model, read_model, prepare_observations, check_bounds, take_next_mesh, note_older_results
+
+   integer, parameter :: MOST_PARAMETERS = 3         !< named
+   character(len=*), parameter :: BY_OPTION = ' (--set)'
 
 contains
 
@@ -153,17 +158,6 @@ contains
 
    end subroutine take_next_mesh
 
-   !> --adapt begins anew with each mesh: there is nothing to go on from. status: STATUS_USAGE.
-   subroutine check_adaptable(command, model, status)
-      type(command_t), intent(in) :: command        !< --adapt and --restart are read
-      type(model_t), intent(in) :: model            !< its *RESTART is read
-      type(status_t), intent(out) :: status         !< STATUS_OK or STATUS_USAGE
-
-      if (command%adapt > 0.0_wp .and. (model%restart_every > 0 .or. allocated(command%restart))) then
-         call set_status(status, STATUS_USAGE, '--adapt: each mesh begins anew, without *RESTART and --restart')
-      end if
-   end subroutine check_adaptable
-
    !> --bound is a proof, and no restart file has it. status: STATUS_USAGE.
    subroutine check_bounds(command, model, status)
       type(command_t), intent(in) :: command
@@ -230,5 +224,94 @@ contains
       if (len_trim(element) > 0) has_state = all(FULL_STATE(model%mesh%state) &
                                                  == FULL_STATE(KINDS(kind_named(upper_case(trim(element))))%state))
    end function has_state
+
+   !> N-OLDER, where there are such: of what run, by the head of its summary (comma-separated values have none).
+   subroutine note_older_results(folder, deck, provenance)
+      character(len=*), intent(in) :: folder           !< of the tables
+      character(len=*), intent(in) :: deck             !< of this run, a path
+      type(provenance_t), intent(in) :: provenance     !< of this run, as far as it is known
+      character(len=:), allocatable :: path, text
+      type(status_t) :: status
+
+      path = table_path(folder, 'summary')
+      if (.not. file_exists(path)) return
+      call read_file(path, text, status)
+      if (is_ok(status)) call add_note('N-OLDER', folder//' still holds the results of another run'// &
+                                       difference_text(text, deck(index(deck, '/', back=.true.) + 1:), provenance))
+   end subroutine note_older_results
+
+   !> ` (push = 9, here 90)`: what the head of a table tells of another run; empty where nothing differs that it tells.
+   pure function difference_text(table, deck, provenance) result(text)
+      character(len=*), intent(in) :: table            !< with its head
+      character(len=*), intent(in) :: deck             !< name of this run's, without folder
+      type(provenance_t), intent(in) :: provenance     !< of this run, as far as it is known
+      character(len=:), allocatable :: text, older, newer
+
+      text = ''
+      older = comment_of(table, 'deck')
+      if (len(older) == 0) return
+      if (older /= deck) text = ', of the deck '//older
+      if (older == deck .and. allocated(provenance%parameters)) then
+         older = comment_of(table, 'parameters')
+         text = other_values(older, provenance%parameters)
+      end if
+      newer = ''
+      if (allocated(provenance%options)) newer = provenance%options
+      older = comment_of(table, 'options')
+      if (older /= newer) then
+         if (len(older) == 0) text = text//', without options'
+         if (len(older) > 0) text = text//', with the options '//older
+      end if
+      if (len(text) == 0) then
+         newer = ''
+         if (allocated(provenance%digest)) newer = provenance%digest
+         older = comment_of(table, 'digest')
+         if (older /= newer) text = ', of this deck before it changed'
+      end if
+      if (len(text) > 0) text = ' ('//text(3:)//')'
+   end function difference_text
+
+   !> `, push = 9, here 90, ...`: parameters whose values are others, of lists as `nu = 0.3, push = 9 (--set)`.
+   pure function other_values(older, newer) result(text)
+      character(len=*), intent(in) :: older, newer
+      character(len=:), allocatable :: text, name, value, here
+      integer :: first, last, place, n
+
+      text = ''
+      n = 0
+      first = 1
+      do while (first <= len(older))
+         last = first + index(older(first:)//', ', ', ') - 2
+         place = index(older(first:last), ' = ')
+         if (place > 0) then
+            name = older(first:first + place)          ! with ` =`
+            value = value_of(older, name)
+            here = value_of(newer, name)
+            if (value /= here) then
+               n = n + 1
+               if (n == MOST_PARAMETERS + 1) text = text//', ...'
+               if (n <= MOST_PARAMETERS) text = text//', '//name//' '//value
+               if (n <= MOST_PARAMETERS .and. len(here) > 0) text = text//', here '//here
+            end if
+         end if
+         first = last + 3
+      end do
+   end function other_values
+
+   !> The value behind `name =` in such a list; empty where there is none.
+   pure function value_of(list, name) result(value)
+      character(len=*), intent(in) :: list, name
+      character(len=:), allocatable :: value
+      integer :: first, last
+
+      value = ''
+      first = index(', '//list, ', '//name//' ')
+      if (first == 0) return
+      first = first + len(name) + 1
+      last = first + index(list(first:)//', ', ', ') - 2
+      value = list(first:last)
+      last = index(value, BY_OPTION)
+      if (last > 0) value = value(:last - 1)
+   end function value_of
 
 end module atrito_load_model

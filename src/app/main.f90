@@ -1,11 +1,10 @@
 !> atrito: contact with friction between elastic bodies by finite elements.
 program atrito_main
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
-   use atrito_driver, only: begin_program, run_program
+   use atrito_driver, only: begin_program, run_program, serve
    use atrito_kinds, only: ip
    use atrito_mpi, only: begin_ranks, end_ranks, has_mpi, own_rank, rank_count, ranks_on_host
    use atrito_rank_services, only: dismiss_ranks
-   use atrito_service, only: serve
    use atrito_status, only: STATUS_INTERNAL, STATUS_OK
    use atrito_system, only: be_rank, forgive_faults, guard_exit, release_exit
    implicit none (type, external)

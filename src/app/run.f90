@@ -29,12 +29,11 @@ module atrito_run
    use atrito_frame_spool, only: begin_frames, end_frames, frame_spool_t
    use atrito_history, only: solve_history
    use atrito_kinds, only: ip, wp, lp
-   use atrito_load_model, only: check_adaptable, check_bounds, load_model, prepare_observations, take_next_mesh
+   use atrito_load_model, only: check_bounds, load_model, prepare_observations, take_next_mesh, note_older_results
    use atrito_mesh, only: signed_area
    use atrito_messages, only: count_messages, message_t, add_message, SEVERITY_WARNING
    use atrito_model, only: model_t
    use atrito_observations, only: observations_t, observation_names
-   use atrito_older_results, only: note_older_results
    use atrito_option_table, only: place_of_word
    use atrito_page, only: page_t, add_above_rule, print_page
    use atrito_plot_files, only: plot_folder, solution_folder, list_plots, PLOTS_OF_RUN
@@ -50,7 +49,7 @@ module atrito_run
    use atrito_show_plots, only: draw_shown
    use atrito_solve, only: solve_options_t, PROOF_AUTO, PROOF_OFF, PROOF_ON, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE, &
                            SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE
-   use atrito_status, only: status_t, set_status, reword_status, is_ok, STATUS_OK, STATUS_NOT_CONVERGED
+   use atrito_status, only: status_t, set_status, reword_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_NOT_CONVERGED
    use atrito_strings, only: string_t, join
    use atrito_study_errors, only: run_facts_t
    use atrito_system, only: address_space_limit
@@ -104,7 +103,9 @@ contains
       call load_model(command, reporter, model, n_printed, code, keeps_deck=.true., adaptation=adaptation)
       if (code == STATUS_OK) call prepare_observations(command, model, observations, code)
       if (code == STATUS_OK) then
-         call check_adaptable(command, model, status)
+         if (command%adapt > 0.0_wp .and. (model%restart_every > 0 .or. allocated(command%restart))) then
+            call set_status(status, STATUS_USAGE, '--adapt: each mesh begins anew, without *RESTART and --restart')
+         end if
          call check_bounds(command, model, status)
          if (is_ok(status)) call check_folder(output_folder(command), status)
          call begin_frames(output_folder(command), frames)

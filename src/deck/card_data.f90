@@ -6,8 +6,7 @@ module atrito_card_data
    use atrito_foreign_keywords, only: is_foreign_variable, variable_of_component, may_be_empty
    use atrito_items, only: get_real, has_option, option_word
    use atrito_keyword, only: form_t, item_t, ANY_NUMBER, KIND_INTEGER, KIND_REAL, KIND_WORD
-   use atrito_keyword_table, only: find_choice, choice_names
-   use atrito_keyword_text, only: form_text, item_text, choices_text
+   use atrito_keyword_table, only: find_choice, choice_names, form_text, item_text, choices_text
    use atrito_strings, only: string_t, append_string, same_name, to_text, upper_case
    implicit none (type, external)
    private
@@ -56,7 +55,7 @@ contains
          associate (line => deck%lines(i), form => deck%keywords(card%keyword)%forms(tally%forms(f)))
             if (form%harmless) then
                call check_unused(deck, card, line, form, 1_ip)
-               if (line%ok) call note_once(deck, card, line_item(deck, line, 1_ip), form%doc, tally)
+               if (line%ok) call note_once(line_item(deck, line, 1_ip), form%doc)
             else if (line%n_tokens < form%min_items .or. line%n_tokens > form%max_items) then
                line%ok = .false.
                token = last_item(deck, line)
@@ -64,13 +63,51 @@ contains
                call report_error(deck, token, 'E-ITEMS', count_text(line%n_tokens, form), expected=form_text(form), &
                                  keyword=trim(card%name))
             else
-               call check_items(deck, card, line, form, tally)
+               call check_items(line, form)
             end if
          end associate
          tally%n_lines(f) = tally%n_lines(f) + 1
          if (.not. deck%lines(i)%ok) tally%faulty = .true.
       end do
       if (.not. tally%faulty) call check_counts(deck, card, tally)
+
+   contains
+
+      subroutine check_items(line, form)
+         type(data_line_t), intent(inout) :: line
+         type(form_t), intent(in) :: form
+         type(token_t) :: token
+         integer(ip) :: i
+         integer :: offset, spec
+
+         offset = merge(1, 0, len(form%word) > 0)
+         do i = 1 + offset, line%n_tokens
+            spec = min(i - offset, size(form%items))
+            token = deck%tokens(line%first_token + i - 1)
+            if (is_empty_token(token)) then
+               if (.not. form%items(spec)%required) cycle
+               line%ok = .false.
+               call report_error(deck, token, 'E-MISSING', form%items(spec)%name//' is missing', &
+                                 expected=item_text(form%items(spec)), keyword=trim(card%name))
+            else if (form%items(spec)%harmless) then
+               call check_unused(deck, card, line, form, i)
+               if (line%ok) call note_once(token, form%items(spec)%name//' items')
+               return
+            else if (form%items(spec)%is_unused) then
+               call check_unused(deck, card, line, form, i)
+            else if (form%items(spec)%kind == KIND_WORD) then
+               call check_word(deck, card, token, form%items(spec), line%ok)
+            end if
+         end do
+      end subroutine check_items
+
+      subroutine note_once(token, text)
+         type(token_t), intent(in) :: token
+         character(len=*), intent(in) :: text
+
+         if (.not. tally%noted) call report_note(deck, token, 'N-IGNORED', '*'//trim(card%name)//': data without effect, '//text)
+         tally%noted = .true.
+      end subroutine note_once
    end subroutine check_data
 
    !> Puts lines that go on together with those in which they do.
@@ -196,61 +233,55 @@ contains
       end associate
       f = 0
       tally%faulty = .true.
-      call report_superfluous(deck, card, line, tally)
+      call report_superfluous()
+
+   contains
+
+      subroutine report_superfluous()
+         character(len=:), allocatable :: text
+         type(token_t) :: first
+         type(string_t), allocatable :: words(:)
+         logical :: is_word
+         integer :: f
+
+         first = line_item(deck, line, 1_ip)
+         text = token_text(deck, first)
+         allocate (words(0))
+         is_word = .false.
+         do f = 1, size(tally%forms)
+            associate (word => deck%keywords(card%keyword)%forms(tally%forms(f))%word)
+               if (len(word) == 0) cycle
+               call append_string(words, word)
+               is_word = is_word .or. same_name(word, text)
+            end associate
+         end do
+         if (is_word) then
+            call report_error(deck, first, 'E-LINES', 'one '//text//' line too many', keyword=trim(card%name))
+         else if (size(words) > 0) then
+            call report_error(deck, first, 'E-CHOICE', "'"//text//"' begins no data line of *"//trim(card%name), known=words, &
+                              keyword=trim(card%name), expected=expected_forms())
+         else if (size(tally%forms) == 0) then
+            call report_error(deck, first, 'E-LINES', 'no data lines belong to this *'//trim(card%name), keyword=trim(card%name))
+         else
+            call report_error(deck, first, 'E-LINES', 'a data line too many', keyword=trim(card%name), expected=expected_forms())
+         end if
+      end subroutine report_superfluous
+
+      !> The forms that apply, as they are written.
+      pure function expected_forms() result(text)
+         character(len=:), allocatable :: text
+         integer :: f
+
+         text = ''
+         do f = 1, size(tally%forms)
+            associate (form => deck%keywords(card%keyword)%forms(tally%forms(f)))
+               if (f > 1) text = text//'; '
+               if (form%max_lines < ANY_NUMBER .and. form%max_lines > 1) text = text//to_text(form%max_lines)//' lines '
+               text = text//form_text(form)
+            end associate
+         end do
+      end function expected_forms
    end subroutine find_form
-
-   subroutine report_superfluous(deck, card, line, tally)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
-      type(data_line_t), intent(in) :: line
-      type(tally_t), intent(in) :: tally
-      character(len=:), allocatable :: text
-      type(token_t) :: first
-      type(string_t), allocatable :: words(:)
-      logical :: is_word
-      integer :: f
-
-      first = line_item(deck, line, 1_ip)
-      text = token_text(deck, first)
-      allocate (words(0))
-      is_word = .false.
-      do f = 1, size(tally%forms)
-         associate (word => deck%keywords(card%keyword)%forms(tally%forms(f))%word)
-            if (len(word) == 0) cycle
-            call append_string(words, word)
-            is_word = is_word .or. same_name(word, text)
-         end associate
-      end do
-      if (is_word) then
-         call report_error(deck, first, 'E-LINES', 'one '//text//' line too many', keyword=trim(card%name))
-      else if (size(words) > 0) then
-         call report_error(deck, first, 'E-CHOICE', "'"//text//"' begins no data line of *"//trim(card%name), &
-                           known=words, keyword=trim(card%name), expected=expected_forms(deck, card, tally))
-      else if (size(tally%forms) == 0) then
-         call report_error(deck, first, 'E-LINES', 'no data lines belong to this *'//trim(card%name), keyword=trim(card%name))
-      else
-         call report_error(deck, first, 'E-LINES', 'a data line too many', keyword=trim(card%name), &
-                           expected=expected_forms(deck, card, tally))
-      end if
-   end subroutine report_superfluous
-
-   !> The forms that apply, as they are written.
-   pure function expected_forms(deck, card, tally) result(text)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
-      type(tally_t), intent(in) :: tally
-      character(len=:), allocatable :: text
-      integer :: f
-
-      text = ''
-      do f = 1, size(tally%forms)
-         associate (form => deck%keywords(card%keyword)%forms(tally%forms(f)))
-            if (f > 1) text = text//'; '
-            if (form%max_lines < ANY_NUMBER .and. form%max_lines > 1) text = text//to_text(form%max_lines)//' lines '
-            text = text//form_text(form)
-         end associate
-      end do
-   end function expected_forms
 
    !> `2 items, where 3 to 4 belong`.
    pure function count_text(n, form) result(text)
@@ -267,37 +298,6 @@ contains
          text = text//trim(merge(' belongs', ' belong ', form%max_items == 1))
       end if
    end function count_text
-
-   subroutine check_items(deck, card, line, form, tally)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
-      type(data_line_t), intent(inout) :: line
-      type(form_t), intent(in) :: form
-      type(tally_t), intent(inout) :: tally
-      type(token_t) :: token
-      integer(ip) :: i
-      integer :: offset, spec
-
-      offset = merge(1, 0, len(form%word) > 0)
-      do i = 1 + offset, line%n_tokens
-         spec = min(i - offset, size(form%items))
-         token = deck%tokens(line%first_token + i - 1)
-         if (is_empty_token(token)) then
-            if (.not. form%items(spec)%required) cycle
-            line%ok = .false.
-            call report_error(deck, token, 'E-MISSING', form%items(spec)%name//' is missing', &
-                              expected=item_text(form%items(spec)), keyword=trim(card%name))
-         else if (form%items(spec)%harmless) then
-            call check_unused(deck, card, line, form, i)
-            if (line%ok) call note_once(deck, card, token, form%items(spec)%name//' items', tally)
-            return
-         else if (form%items(spec)%is_unused) then
-            call check_unused(deck, card, line, form, i)
-         else if (form%items(spec)%kind == KIND_WORD) then
-            call check_word(deck, card, token, form%items(spec), line%ok)
-         end if
-      end do
-   end subroutine check_items
 
    !> Where a number without effect belongs, a name is hardly without meaning: a second set on the line of one.
    subroutine check_unused(deck, card, line, form, first)
@@ -350,17 +350,6 @@ contains
                            keyword=trim(card%name))
       end if
    end subroutine check_word
-
-   subroutine note_once(deck, card, token, text, tally)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
-      type(token_t), intent(in) :: token
-      character(len=*), intent(in) :: text
-      type(tally_t), intent(inout) :: tally
-
-      if (.not. tally%noted) call report_note(deck, token, 'N-IGNORED', '*'//trim(card%name)//': data without effect, '//text)
-      tally%noted = .true.
-   end subroutine note_once
 
    !> Enough lines of every form.
    subroutine check_counts(deck, card, tally)

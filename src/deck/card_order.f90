@@ -1,11 +1,12 @@
 !> Where a keyword stands: model, step, or behind the end; and to what it belongs.
+!>
+!> Parts, instances and the assembly: which of them is open, and what may stand in it.
 module atrito_card_order
    use atrito_deck, only: deck_t, card_t, token_t, token_text, KEYWORD_UNKNOWN, LEVEL_MODEL, LEVEL_STEP
    use atrito_diagnostics, only: report_error, refuse_card, report_deck_error
    use atrito_keyword, only: LEVEL_BOTH
    use atrito_kinds, only: ip
-   use atrito_part_order, only: parts_t, check_parts, check_open_parts
-   use atrito_strings, only: upper_case
+   use atrito_strings, only: upper_case, same_name
    implicit none (type, external)
    private
    public :: order_t, check_order, check_end
@@ -15,6 +16,17 @@ module atrito_card_order
 
    !> In the place of a parent: a keyword that changes the model within a step, refused.
    character(len=*), parameter :: CHANGED = '*'
+
+   !> What is open between two cards: a *PART or an *INSTANCE (the block), and round an *INSTANCE the assembly.
+   type :: parts_t
+      integer(ip) :: n_blocks = 0                          !< so far
+      logical :: in_block = .false., in_assembly = .false. !< between *PART, *INSTANCE or *ASSEMBLY and their ends
+      logical :: is_loose = .false.                        !< an *INSTANCE without an assembly has been reported
+      logical :: is_told = .false.                         !< of the block: something stands in it that cannot
+      character(len=8) :: block = ''                       !< PART or INSTANCE
+      type(token_t) :: block_place, assembly_place         !< the keywords that opened them
+      character(len=:), allocatable :: name                !< of the block
+   end type parts_t
 
    !> What has been read so far.
    type :: order_t
@@ -27,6 +39,12 @@ module atrito_card_order
       type(parts_t) :: parts                       !< parts, instances and assembly
       logical :: incomplete = .false.              !< a file could not be read: no word about what is missing
    end type order_t
+
+   !> What a part may hold.
+   character(len=*), parameter :: MEMBERS(18) = [character(len=19) :: 'NODE', 'NGEN', 'NFILL', 'ELEMENT', 'ELGEN', 'NSET', &
+                                                                  'ELSET', 'SURFACE', 'SOLID SECTION', 'TRANSFORM', 'ORIENTATION', &
+                                                               'NODAL THICKNESS', 'EQUATION', 'RIGID BODY', 'SPRING', 'PARAMETER', &
+                                                                                                   'INCLUDE', 'PRE-TENSION SECTION']
 
 contains
 
@@ -43,7 +61,7 @@ contains
          if (card%changes_model) then
             order%parent = CHANGED
          else
-            call follow_meaning(deck, order, card)
+            call follow_meaning()
          end if
          return
       end if
@@ -65,47 +83,44 @@ contains
                                                                           '*STEP before it')
          order%in_step = .false.
       case default
-         call check_level(deck, order, card)
+         call check_level()
       end select
       call check_parent(deck, order, card)
       if (card%ok) call check_parts(deck, order%parts, card)
+
+   contains
+
+      !> A misspelt keyword is reported; what would only follow from it is not.
+      subroutine follow_meaning()
+         character(len=:), allocatable :: name
+         integer :: i
+
+         name = trim(card%meant)
+         if (len(name) == 0) return
+         if (name == 'STEP') order%lost_step = .true.
+         if (name == 'END STEP') order%in_step = .false.
+         do i = 1, size(deck%keywords)
+            if (deck%keywords(i)%parent == name) order%parent = LOST
+         end do
+      end subroutine follow_meaning
+
+      subroutine check_level()
+         integer :: level
+
+         level = deck%keywords(card%keyword)%level
+         if (follows_only(deck, order, card)) then
+            card%ok = .false.
+         else if (order%n_steps > 0 .and. .not. order%in_step) then
+            call refuse_card(deck, card, 'E-STEP', '*'//trim(card%name)//' stands after an *END STEP', &
+                             'a *STEP, or nothing behind it')
+         else if (level == LEVEL_MODEL .and. order%in_step .and. .not. is_removal(deck, card)) then
+            call refuse_card(deck, card, 'E-LEVEL', '*'//trim(card%name)//' stands inside the step', 'its place before *STEP')
+         else if (level == LEVEL_STEP .and. .not. order%in_step) then
+            call refuse_card(deck, card, 'E-LEVEL', '*'//trim(card%name)//' stands outside of a step', &
+                             'its place between *STEP and *END STEP')
+         end if
+      end subroutine check_level
    end subroutine check_order
-
-   !> A misspelt keyword is reported; what would only follow from it is not.
-   subroutine follow_meaning(deck, order, card)
-      type(deck_t), intent(in) :: deck
-      type(order_t), intent(inout) :: order
-      type(card_t), intent(in) :: card
-      character(len=:), allocatable :: name
-      integer :: i
-
-      name = trim(card%meant)
-      if (len(name) == 0) return
-      if (name == 'STEP') order%lost_step = .true.
-      if (name == 'END STEP') order%in_step = .false.
-      do i = 1, size(deck%keywords)
-         if (deck%keywords(i)%parent == name) order%parent = LOST
-      end do
-   end subroutine follow_meaning
-
-   subroutine check_level(deck, order, card)
-      type(deck_t), intent(in) :: deck
-      type(order_t), intent(in) :: order
-      type(card_t), intent(inout) :: card
-      integer :: level
-
-      level = deck%keywords(card%keyword)%level
-      if (follows_only(deck, order, card)) then
-         card%ok = .false.
-      else if (order%n_steps > 0 .and. .not. order%in_step) then
-         call refuse_card(deck, card, 'E-STEP', '*'//trim(card%name)//' stands after an *END STEP', 'a *STEP, or nothing behind it')
-      else if (level == LEVEL_MODEL .and. order%in_step .and. .not. is_removal(deck, card)) then
-         call refuse_card(deck, card, 'E-LEVEL', '*'//trim(card%name)//' stands inside the step', 'its place before *STEP')
-      else if (level == LEVEL_STEP .and. .not. order%in_step) then
-         call refuse_card(deck, card, 'E-LEVEL', '*'//trim(card%name)//' stands outside of a step', &
-                          'its place between *STEP and *END STEP')
-      end if
-   end subroutine check_level
 
    !> REMOVE, which is reported by itself: no step changes the model.
    pure logical function is_removal(deck, card)
@@ -167,5 +182,125 @@ contains
                            keyword='STEP')
       end if
    end subroutine check_end
+
+   !> Checks the place of a card and marks its block. Afterwards the block of a card that opens one is open.
+   subroutine check_parts(deck, parts, card)
+      type(deck_t), intent(in) :: deck      !< its texts, for messages
+      type(parts_t), intent(inout) :: parts !< what is open before the card; then behind it
+      type(card_t), intent(inout) :: card   !< gets its block; may be refused
+
+      select case (card%name)
+      case ('PART', 'INSTANCE')
+         call check_assembly()
+         call open_block()
+      case ('ASSEMBLY')
+         call refuse_nesting()
+         if (parts%in_assembly .and. card%ok) call refuse_card(deck, card, 'E-PART', '*ASSEMBLY inside the assembly', &
+                                                               'one *ASSEMBLY')
+         parts%in_assembly = .true.
+         parts%assembly_place = card%place
+      case ('END PART', 'END INSTANCE')
+         call close_block(deck, parts, card)
+      case ('END ASSEMBLY')
+         call refuse_nesting()
+         if (.not. (parts%in_assembly .or. parts%is_loose)) then
+            call refuse_card(deck, card, 'E-PART', '*END ASSEMBLY without an *ASSEMBLY', '*ASSEMBLY before it')
+         end if
+         parts%in_assembly = .false.
+      case ('STEP')
+         call check_open_parts(deck, parts)
+         parts%in_block = .false.
+         parts%in_assembly = .false.
+      case default
+         if (.not. parts%in_block) return
+         card%block = merge(parts%n_blocks, 0_ip, any(MEMBERS == card%name))
+         if (card%block > 0 .or. parts%is_told) return
+         ! the first card that is of the whole deck is reported; what follows may be of it, or the end of the block is missing
+         parts%is_told = .true.
+         call refuse_card(deck, card, 'E-PART', '*'//trim(card%name)//' stands inside '//open_text(parts), &
+                          'its place outside of parts and instances, which hold nodes, elements, sets, surfaces and sections')
+      end select
+
+   contains
+
+      !> A part stands outside of the assembly, an instance in it.
+      subroutine check_assembly()
+
+         call refuse_nesting()
+         if (.not. card%ok) then
+            return
+         else if (card%name == 'PART' .and. parts%in_assembly) then
+            call refuse_card(deck, card, 'E-PART', '*PART inside the assembly', 'its place before *ASSEMBLY')
+         else if (card%name == 'INSTANCE' .and. .not. (parts%in_assembly .or. parts%is_loose)) then
+            call refuse_card(deck, card, 'E-PART', '*INSTANCE outside of an assembly', &
+                             'its place between *ASSEMBLY and *END ASSEMBLY')
+            parts%is_loose = .true.
+         end if
+      end subroutine check_assembly
+
+      subroutine open_block()
+         integer :: i
+
+         parts%n_blocks = parts%n_blocks + 1
+         parts%in_block = .true.
+         parts%is_told = .false.
+         parts%block = card%name(:len(parts%block))
+         parts%block_place = card%place
+         card%block = parts%n_blocks
+         parts%name = 'it'
+         do i = 1, size(card%options)                 ! they have not been looked up in the table yet
+            if (.not. same_name(token_text(deck, card%options(i)%name), 'NAME')) cycle
+            parts%name = token_text(deck, card%options(i)%value)
+         end do
+      end subroutine open_block
+
+      !> Nothing of this kind may stand inside a part or an instance, which ends here.
+      subroutine refuse_nesting()
+
+         if (parts%in_block .and. .not. parts%is_told) call refuse_card(deck, card, 'E-PART', '*'//trim(card%name)//' inside '// &
+                                                                        open_text(parts), '*END '//trim(parts%block)//' before it')
+         parts%in_block = .false.
+      end subroutine refuse_nesting
+   end subroutine check_parts
+
+   !> At the end of the model: all is closed. What is open is reported where it was opened.
+   subroutine check_open_parts(deck, parts)
+      type(deck_t), intent(in) :: deck   !< its texts, for messages
+      type(parts_t), intent(in) :: parts !< what is open
+
+      if (parts%in_block .and. parts%is_told) then
+         return                                    ! its end is missing before that
+      else if (parts%in_block) then
+         call report_error(deck, parts%block_place, 'E-PART', '*'//trim(parts%block)//' without *END '//trim(parts%block), &
+                           expected='*END '//trim(parts%block)//' behind what belongs to '//parts%name, keyword=trim(parts%block))
+      else if (parts%in_assembly) then
+         call report_error(deck, parts%assembly_place, 'E-PART', '*ASSEMBLY without *END ASSEMBLY', &
+                           expected='*END ASSEMBLY before *STEP', keyword='ASSEMBLY')
+      end if
+   end subroutine check_open_parts
+
+   subroutine close_block(deck, parts, card)
+      type(deck_t), intent(in) :: deck
+      type(parts_t), intent(inout) :: parts
+      type(card_t), intent(inout) :: card
+
+      if (.not. parts%in_block) then
+         call refuse_card(deck, card, 'E-PART', '*'//trim(card%name)//' without '//trim(merge('a *PART     ', 'an *INSTANCE', &
+                                                                                              card%name == 'END PART')), &
+                          '*'//trim(card%name(5:))//' before it')
+      else if (parts%block /= card%name(5:)) then
+         call refuse_card(deck, card, 'E-PART', '*'//trim(card%name)//' inside '//open_text(parts), '*END '//trim(parts%block))
+      end if
+      card%block = merge(parts%n_blocks, 0_ip, parts%in_block)
+      parts%in_block = .false.
+   end subroutine close_block
+
+   pure function open_text(parts) result(text)
+      type(parts_t), intent(in) :: parts
+      character(len=:), allocatable :: text
+
+      text = 'the part '//parts%name
+      if (parts%block == 'INSTANCE') text = 'the instance '//parts%name
+   end function open_text
 
 end module atrito_card_order

@@ -7,8 +7,7 @@ module atrito_cards
    use atrito_items, only: get_real, get_integer, get_name
    use atrito_keyword, only: keyword_t, option_spec_t, KIND_FLAG, KIND_NAME, KIND_WORD, KIND_OPTIONAL_WORD, KIND_REAL, KIND_INTEGER
    use atrito_keyword_table, only: define_keyword, find_keyword, find_option_spec, find_choice, keyword_names, option_names, &
-                                   choice_names, packed
-   use atrito_keyword_text, only: option_text_of, with_dimension, choices_text
+                                   choice_names, packed, option_text_of, with_dimension, choices_text
    use atrito_messages, only: ID_OUTSIDE, SEVERITY_ERROR, has_room
    use atrito_lexer, only: find_equals
    use atrito_strings, only: string_t, nearest_names, upper_case
@@ -151,7 +150,7 @@ contains
          if (len(name) == 0) then
             call refuse_card(deck, card, 'E-OPTION', 'an empty option', place=card%options(i)%name)
          else if (spec == 0) then
-            call judge_option(deck, card, card%options(i))
+            call judge_option(card%options(i))
          else if (any(card%options(:i - 1)%spec == spec)) then
             call refuse_card(deck, card, 'E-OPTION-TWICE', 'option '//name//' is given twice', place=card%options(i)%name)
          else
@@ -159,36 +158,70 @@ contains
             call check_use(deck, card, card%options(i), deck%keywords(card%keyword)%options(spec))
          end if
       end do
-      call check_company(deck, card)
+      call check_company()
+
+   contains
+
+      !> An option that the table does not have: one of other programs, or of none.
+      subroutine judge_option(option)
+         type(option_t), intent(inout) :: option
+         character(len=:), allocatable :: name, phrase, text
+         integer :: verdict
+
+         name = token_text(deck, option%name)
+         phrase = packed(card%name)//'/'//packed(name)
+         call ask_option(phrase, verdict, text)
+         if (verdict == NOT_FOREIGN .and. option%has_value) then
+            call ask_option(phrase//'='//packed(token_text(deck, option%value)), verdict, text)
+         end if
+         select case (verdict)
+         case (FOREIGN_IGNORED)
+            option%spec = FOREIGN_OPTION
+            call report_note(deck, option%name, 'N-IGNORED', 'option '//upper_case(name)//' of *'//trim(card%name)// &
+                             ' has no effect: '//text)
+         case (FOREIGN_OUTSIDE)
+            option%spec = FOREIGN_OPTION
+            call refuse_outside(deck, card, option%name, 'option '//upper_case(name)//' of *'//trim(card%name), text)
+         case (NOT_FOREIGN)
+            call refuse_card(deck, card, 'E-OPTION', 'unknown option '//name//' of *'//trim(card%name), &
+                             known=option_names(deck%keywords(card%keyword)%options), place=option%name)
+         end select
+      end subroutine judge_option
+
+      !> Options that must be there: the required ones, and those that others need.
+      subroutine check_company()
+         integer :: i, j, k
+         type(string_t), allocatable :: near(:)
+         logical :: is_misspelt
+
+         if (card%is_refused .or. card%is_outside) return
+         associate (options => deck%keywords(card%keyword)%options)
+            do i = 1, size(options)
+               if (options(i)%required .and. .not. any(card%options%spec == i)) then
+                  card%ok = .false.
+                  ! An unknown option, which was reported, is nearest to this one.
+                  is_misspelt = .false.
+                  do k = 1, size(card%options)
+                     if (card%options(k)%spec /= 0) cycle
+                     near = nearest_names(token_text(deck, card%options(k)%name), &
+                                          option_names(deck%keywords(card%keyword)%options), 1)
+                     if (size(near) > 0) is_misspelt = is_misspelt .or. near(1)%s == options(i)%name
+                  end do
+                  if (is_misspelt) cycle
+                  call refuse_card(deck, card, 'E-OPTION-MISSING', '*'//trim(card%name)//' needs the option '//options(i)%name, &
+                                   meaning(options(i)))
+               end if
+            end do
+            do j = 1, size(card%options)
+               if (card%options(j)%spec < 1) cycle
+               i = find_option_spec(deck%keywords(card%keyword), options(card%options(j)%spec)%needs)
+               if (i == 0 .or. any(card%options%spec == i)) cycle
+               call refuse_card(deck, card, 'E-OPTION', 'option '//options(card%options(j)%spec)%name//' goes with '// &
+                                options(i)%name//' only', place=card%options(j)%name)
+            end do
+         end associate
+      end subroutine check_company
    end subroutine check_options
-
-   !> An option that the table does not have: one of other programs, or of none.
-   subroutine judge_option(deck, card, option)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(inout) :: card
-      type(option_t), intent(inout) :: option
-      character(len=:), allocatable :: name, phrase, text
-      integer :: verdict
-
-      name = token_text(deck, option%name)
-      phrase = packed(card%name)//'/'//packed(name)
-      call ask_option(phrase, verdict, text)
-      if (verdict == NOT_FOREIGN .and. option%has_value) then
-         call ask_option(phrase//'='//packed(token_text(deck, option%value)), verdict, text)
-      end if
-      select case (verdict)
-      case (FOREIGN_IGNORED)
-         option%spec = FOREIGN_OPTION
-         call report_note(deck, option%name, 'N-IGNORED', 'option '//upper_case(name)//' of *'//trim(card%name)// &
-                          ' has no effect: '//text)
-      case (FOREIGN_OUTSIDE)
-         option%spec = FOREIGN_OPTION
-         call refuse_outside(deck, card, option%name, 'option '//upper_case(name)//' of *'//trim(card%name), text)
-      case (NOT_FOREIGN)
-         call refuse_card(deck, card, 'E-OPTION', 'unknown option '//name//' of *'//trim(card%name), &
-                          known=option_names(deck%keywords(card%keyword)%options), place=option%name)
-      end select
-   end subroutine judge_option
 
    !> Refuses a card by the name of what it asks for. What defines a name keeps it, so that nobody misses the name; without nodes
    !> and elements nothing of the scene is left.
@@ -222,69 +255,63 @@ contains
       else if (spec%kind /= KIND_OPTIONAL_WORD .and. is_empty_token(option%value)) then
          call refuse_card(deck, card, 'E-OPTION-VALUE', 'option '//spec%name//' needs a value', meaning(spec), option%value)
       else
-         call check_value(deck, card, option, spec)
+         call check_value()
       end if
-   end subroutine check_use
 
-   subroutine check_value(deck, card, option, spec)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(inout) :: card
-      type(option_t), intent(in) :: option
-      type(option_spec_t), intent(in) :: spec
-      character(len=:), allocatable :: name
-      real(wp) :: x
-      integer(ip) :: i
-      logical :: ok
+   contains
 
-      ok = .true.
-      select case (spec%kind)
-      case (KIND_WORD, KIND_OPTIONAL_WORD)
-         call check_word(deck, card, option, spec, ok)
-      case (KIND_REAL)
-         call get_real(deck, option%value, meaning(spec), x, ok, keyword=trim(card%name))
-      case (KIND_INTEGER)
-         call get_integer(deck, option%value, meaning(spec), i, ok, keyword=trim(card%name))
-      case (KIND_NAME)
-         call get_name(deck, option%value, meaning(spec), name, ok, keyword=trim(card%name))
-         if (ok .and. verify(name, '0123456789') == 0 .and. .not. is_quoted(deck, option%value)) then
-            ok = .false.                              ! nothing could distinguish a set named 12 from node 12
-            call report_error(deck, option%value, 'E-NAME', 'all digits means a number, not a name', &
-                              expected=meaning(spec), keyword=trim(card%name))
+      subroutine check_value()
+         character(len=:), allocatable :: name
+         real(wp) :: x
+         integer(ip) :: i
+         logical :: ok
+
+         ok = .true.
+         select case (spec%kind)
+         case (KIND_WORD, KIND_OPTIONAL_WORD)
+            call check_word(ok)
+         case (KIND_REAL)
+            call get_real(deck, option%value, meaning(spec), x, ok, keyword=trim(card%name))
+         case (KIND_INTEGER)
+            call get_integer(deck, option%value, meaning(spec), i, ok, keyword=trim(card%name))
+         case (KIND_NAME)
+            call get_name(deck, option%value, meaning(spec), name, ok, keyword=trim(card%name))
+            if (ok .and. verify(name, '0123456789') == 0 .and. .not. is_quoted(deck, option%value)) then
+               ok = .false.                              ! nothing could distinguish a set named 12 from node 12
+               call report_error(deck, option%value, 'E-NAME', 'all digits means a number, not a name', &
+                                 expected=meaning(spec), keyword=trim(card%name))
+            end if
+         end select
+         card%ok = card%ok .and. ok
+      end subroutine check_value
+
+      subroutine check_word(ok)
+         logical, intent(out) :: ok
+         character(len=:), allocatable :: word
+         type(token_t) :: place
+         integer :: choice
+
+         word = token_text(deck, option%value)
+         place = option%value
+         if (.not. option%has_value) then
+            word = spec%choices(1)%name               ! alone, the option stands for its first word
+            place = option%name
          end if
-      end select
-      card%ok = card%ok .and. ok
-   end subroutine check_value
-
-   subroutine check_word(deck, card, option, spec, ok)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(inout) :: card
-      type(option_t), intent(in) :: option
-      type(option_spec_t), intent(in) :: spec
-      logical, intent(out) :: ok
-      character(len=:), allocatable :: word
-      type(token_t) :: place
-      integer :: choice
-
-      word = token_text(deck, option%value)
-      place = option%value
-      if (.not. option%has_value) then
-         word = spec%choices(1)%name               ! alone, the option stands for its first word
-         place = option%name
-      end if
-      choice = find_choice(spec%choices, word)
-      ok = choice > 0
-      if (.not. ok) then
-         if (is_foreign_word(deck, card, place, spec, word, ok)) return
-         call report_error(deck, place, 'E-CHOICE', spec%name//'='//word//' is unknown to *'//trim(card%name), &
-                           expected=meaning(spec), known=choice_names(spec%choices), &
-                           keyword=trim(card%name))
-         return
-      end if
-      ok = spec%choices(choice)%built
-      if (.not. ok) call report_error(deck, place, 'E-NOT-BUILT', spec%name//'='//spec%choices(choice)%name//' of *'// &
-                                      trim(card%name)//' is not built yet', expected=meaning(spec), &
-                                      keyword=trim(card%name))
-   end subroutine check_word
+         choice = find_choice(spec%choices, word)
+         ok = choice > 0
+         if (.not. ok) then
+            if (is_foreign_word(deck, card, place, spec, word, ok)) return
+            call report_error(deck, place, 'E-CHOICE', spec%name//'='//word//' is unknown to *'//trim(card%name), &
+                              expected=meaning(spec), known=choice_names(spec%choices), &
+                              keyword=trim(card%name))
+            return
+         end if
+         ok = spec%choices(choice)%built
+         if (.not. ok) call report_error(deck, place, 'E-NOT-BUILT', spec%name//'='//spec%choices(choice)%name//' of *'// &
+                                         trim(card%name)//' is not built yet', expected=meaning(spec), &
+                                         keyword=trim(card%name))
+      end subroutine check_word
+   end subroutine check_use
 
    !> A word, or a type of elements, that other programs know: ok where it has no effect, else it is refused by its name.
    logical function is_foreign_word(deck, card, place, spec, word, ok)
@@ -314,41 +341,6 @@ contains
                                                              trim(card%name), text)
       end if
    end function is_foreign_word
-
-   !> Options that must be there: the required ones, and those that others need.
-   subroutine check_company(deck, card)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(inout) :: card
-      integer :: i, j, k
-      type(string_t), allocatable :: near(:)
-      logical :: is_misspelt
-
-      if (card%is_refused .or. card%is_outside) return
-      associate (options => deck%keywords(card%keyword)%options)
-         do i = 1, size(options)
-            if (options(i)%required .and. .not. any(card%options%spec == i)) then
-               card%ok = .false.
-               ! An unknown option, which was reported, is nearest to this one.
-               is_misspelt = .false.
-               do k = 1, size(card%options)
-                  if (card%options(k)%spec /= 0) cycle
-                  near = nearest_names(token_text(deck, card%options(k)%name), option_names(deck%keywords(card%keyword)%options), 1)
-                  if (size(near) > 0) is_misspelt = is_misspelt .or. near(1)%s == options(i)%name
-               end do
-               if (is_misspelt) cycle
-               call refuse_card(deck, card, 'E-OPTION-MISSING', '*'//trim(card%name)//' needs the option '//options(i)%name, &
-                                meaning(options(i)))
-            end if
-         end do
-         do j = 1, size(card%options)
-            if (card%options(j)%spec < 1) cycle
-            i = find_option_spec(deck%keywords(card%keyword), options(card%options(j)%spec)%needs)
-            if (i == 0 .or. any(card%options%spec == i)) cycle
-            call refuse_card(deck, card, 'E-OPTION', 'option '//options(card%options(j)%spec)%name//' goes with '// &
-                             options(i)%name//' only', place=card%options(j)%name)
-         end do
-      end associate
-   end subroutine check_company
 
    !> `MATERIAL=name: their material`.
    pure function meaning(spec) result(text)

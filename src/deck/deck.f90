@@ -16,7 +16,7 @@ module atrito_deck
    private
    public :: source_t, token_t, option_t, card_t, data_line_t, scope_t, parameter_t, deck_t
    public :: KEYWORD_UNKNOWN, LEVEL_MODEL, LEVEL_STEP
-   public :: token_text, is_empty_token, is_quoted, is_id_token, written_length, keyword_name, count_lines, line_item, last_item, &
+   public :: token_text, is_empty_token, is_quoted, is_id_token, keyword_name, count_lines, line_item, last_item, &
              reading_order, take_source_line, part_of, scope_shift, scope_text, model_number
    public :: after_byte_order_mark
    public :: allocate_deck, make_room, append_source, note_include, append_token, append_line, append_card, append_mesh
@@ -118,6 +118,7 @@ module atrito_deck
       type(gmsh_mesh_t), allocatable :: meshes(:)     !< of *INCLUDE, TYPE=GMSH, in their order
       type(edits_t) :: edits                          !< what is replaced when the deck is written as it was run
       type(scope_t), allocatable :: scopes(:)         !< (0:instances); not allocated: a deck without parts
+      logical :: is_read = .false.                    !< its cards are all there
       integer(ip) :: n_sources = 0, n_cards = 0, n_lines = 0, n_tokens = 0, n_parameters = 0 !< in use
    end type deck_t
 
@@ -187,15 +188,6 @@ contains
       call trim_place(deck%sources(token%source)%text, part%first, part%last)
       part%column = token%column + part%first - token%first
    end function part_of
-
-   !> How many characters of a name stand in the deck, its quotes apart.
-   pure integer(ip) function written_length(deck, token) result(n)
-      type(deck_t), intent(in) :: deck   !< texts are read
-      type(token_t), intent(in) :: token !< of a name
-
-      n = token%last - token%first + 1
-      if (is_quoted(deck, token)) n = n - 2
-   end function written_length
 
    !> Whether nothing stands there: an item between two commas, for example.
    elemental logical function is_empty_token(token)

@@ -5,7 +5,7 @@ module atrito_diagnostics
    use atrito_messages, only: message_t, add_message, has_room, count_messages, ID_OUTSIDE, MOST_ERRORS, WIDEST_SOURCE, &
                               SEVERITY_ERROR, SEVERITY_WARNING, SEVERITY_NOTE
    use atrito_name_list, only: name_list_t, names_of
-   use atrito_strings, only: string_t, nearest_names
+   use atrito_strings, only: string_t, nearest_names, upper_case
    implicit none (type, external)
    private
    public :: report_error, refuse_card, report_warning, report_note, report_outside, report_deck_error
@@ -28,7 +28,7 @@ contains
       character(len=*), intent(in) :: text                  !< what is wrong
       character(len=*), intent(in), optional :: expected    !< what should be there, with its dimension
       type(string_t), intent(in), optional :: known(:)      !< valid names: the message has those nearest to the item
-      character(len=*), intent(in), optional :: keyword     !< for `atrito help KEYWORD`
+      character(len=*), intent(in), optional :: keyword     !< for `atrito help KEYWORD`; left out: that of the card
       type(name_list_t), intent(in), optional :: among      !< further valid names, which may be many
 
       if (deck%is_outside) then
@@ -61,7 +61,7 @@ contains
       integer, intent(in) :: subject                        !< its place, atrito_foreign_keywords
 
       call report(deck, token, SEVERITY_ERROR, ID_OUTSIDE, name//' is outside of atrito: '//deck%subjects(subject)%what, &
-                  expected=deck%subjects(subject)%instead)
+                  expected=deck%subjects(subject)%instead, keyword='')
    end subroutine report_outside
 
    !> As report_error, a warning.
@@ -123,7 +123,9 @@ contains
          return
       end if
       if (present(expected)) message%expected = expected
+      message%keyword = keyword_at(deck, token)
       if (present(keyword)) message%keyword = keyword
+      if (len(message%keyword) == 0) deallocate (message%keyword)
       if (present(known) .or. present(among)) call tell_names(token_text(deck, token), known, among, message)
       if (token%source > 0) then
          message%file = deck%sources(token%source)%name
@@ -137,6 +139,35 @@ contains
       end if
       call add_message(message)
    end subroutine report
+
+   !> The keyword that explains an item: that of its card, the last one that begins before it in the same file; *SPRING for the
+   !> *ELEMENT of a spring. '' of none, and while cards are still being read: they report their faults with their own keyword.
+   pure function keyword_at(deck, token) result(keyword)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: token
+      character(len=:), allocatable :: keyword
+      integer(ip) :: i, found, line
+
+      keyword = ''
+      if (.not. deck%is_read .or. token%source == 0) return
+      found = 0
+      line = 0
+      do i = 1, deck%n_cards
+         associate (place => deck%cards(i)%place)
+            if (place%source /= token%source .or. place%line > token%line .or. place%line < line) cycle
+            found = i
+            line = place%line
+         end associate
+      end do
+      if (found == 0) return
+      keyword = trim(deck%cards(found)%name)
+      if (keyword /= 'ELEMENT' .or. .not. allocated(deck%cards(found)%options)) return
+      associate (options => deck%cards(found)%options)
+         do i = 1, size(options, kind=ip)
+            if (index(upper_case(token_text(deck, options(i)%value)), 'SPRING') == 1) keyword = 'SPRING'
+         end do
+      end associate
+   end function keyword_at
 
    !> Tells the valid names that are nearest; all of a short list, since it is soon read. Where they are many, the errors that are
    !> printed have them, and no others.

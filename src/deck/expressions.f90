@@ -247,7 +247,8 @@ contains
       last = end_of_name(parser%text, first)
       name = parser%text(first:last)
       call move_to(parser, last + 1)
-      i = index_of_variable(parser, name)
+      i = int(find_name(parser%names, name))
+      if (allocated(parser%calls) .and. next(parser) == '(') i = 0   ! where there are calls, a variable has no parentheses
       if (i > 0) then
          value = parser%values(i)
       else if (same_name(name, 'pi')) then
@@ -274,16 +275,6 @@ contains
          parser%fault%unknown_name = .true.
       end if
    end subroutine take_name
-
-   !> Place of a variable, 0 when there is none; what has parentheses behind it is none where there are calls.
-   pure integer function index_of_variable(parser, name) result(i)
-      type(parser_t), intent(in) :: parser
-      character(len=*), intent(in) :: name
-
-      i = 0
-      if (allocated(parser%calls) .and. next(parser) == '(') return
-      i = int(find_name(parser%names, name))
-   end function index_of_variable
 
    !> Whether the name that ends at a place is a call: no function, or a least or largest value of a field.
    pure logical function is_call(parser, name, last)

@@ -1,24 +1,173 @@
 !> Values of items and options: what the model's constructors ask of a deck. Failures are reported here, at their place.
+!>
+!> Expressions that stand in a deck: the parameters that they may use, and their faults at their places.
 module atrito_items
-   use atrito_keyword_table, only: find_choice
-   use atrito_kinds, only: ip, wp
-   use atrito_deck, only: deck_t, card_t, option_t, token_t, token_text, part_of, is_empty_token, written_length, keyword_name, &
+   use atrito_deck, only: deck_t, card_t, option_t, token_t, token_text, part_of, is_empty_token, is_quoted, keyword_name, &
                           reading_order, data_line_t, line_item
    use atrito_diagnostics, only: report_error
-   use atrito_deck_expressions, only: evaluate_at, has_own_degree, report_later, index_of_parameter
-   use atrito_expression_names, only: is_name, is_reserved_name
+   use atrito_expression_names, only: is_name, is_reserved_name, next_name, reserved_names
+   use atrito_expressions, only: expression_fault_t, evaluate_expression
+   use atrito_growth, only: make_room
+   use atrito_keyword_table, only: find_choice
+   use atrito_kinds, only: ip, wp
+   use atrito_name_list, only: find_name
    use atrito_numbers, only: read_real, read_integer, NUMBER_OK, NUMBER_TOO_LARGE, NUMBER_NOT_INTEGER
-   use atrito_strings, only: same_name, to_text, upper_case
+   use atrito_sorting, only: each_once
+   use atrito_strings, only: same_name, to_text, upper_case, string_t, join
    implicit none (type, external)
    private
    public :: get_real, get_integer, get_name, find_option, has_option, option_text, option_word, option_real, option_integer, &
-             refuse_option, check_comma
-   public :: LONGEST_NAME
+             refuse_option, check_comma, LONGEST_NAME, evaluate_at, has_own_degree, report_fault, collect_known, put_before, &
+             index_of_parameter, is_known_at
 
    integer, parameter :: LONGEST_NAME = 80
    real(wp), parameter :: ROUND_OFF = 1.0e-12_wp      !< of an expression that is to be whole: 0.1*30
 
 contains
+
+   !> The value of an expression of earlier parameters. known: .false. when it has none; that is reported, except when it
+   !> uses a parameter that has none itself.
+   subroutine evaluate_at(deck, expression, value, known, silent)
+      type(deck_t), intent(in) :: deck                 !< its texts and parameters are read
+      type(token_t), intent(in) :: expression          !< place of its text, without < and >
+      real(wp), intent(out) :: value                   !< 0 where it is not known
+      logical, intent(out) :: known                    !< the expression has a value
+      logical, intent(in), optional :: silent          !< nothing is reported; default .false.
+      type(string_t), allocatable :: names(:)
+      real(wp), allocatable :: values(:)
+      type(expression_fault_t) :: fault
+
+      call collect_known(deck, expression, names, values)
+      call evaluate_expression(token_text(deck, expression), names, values, value, fault, has_own_degree(deck))
+      known = .not. allocated(fault%text)
+      if (present(silent)) then
+         if (silent) return
+      end if
+      if (.not. known) call report_fault(deck, expression, fault, [string_t ::], 'PARAMETER')
+   end subroutine evaluate_at
+
+   !> The deck has a parameter of the name deg: before its definition deg is nothing.
+   pure logical function has_own_degree(deck)
+      type(deck_t), intent(in) :: deck !< its parameters are read
+
+      has_own_degree = index_of_parameter(deck, 'deg') > 0
+   end function has_own_degree
+
+   !> A fault of an expression, at its place. Passed over in silence when it is a parameter whose definition was reported.
+   subroutine report_fault(deck, expression, fault, also, keyword)
+      type(deck_t), intent(in) :: deck                 !< its texts and parameters are read
+      type(token_t), intent(in) :: expression          !< the place that `fault` counts from
+      type(expression_fault_t), intent(in) :: fault    !< of this expression
+      type(string_t), intent(in) :: also(:)            !< names that the expression knows besides
+      character(len=*), intent(in) :: keyword          !< for `atrito help KEYWORD`
+      type(token_t) :: place
+      type(string_t), allocatable :: names(:)
+      character(len=:), allocatable :: others
+      integer(ip) :: i
+
+      place = expression
+      place%first = expression%first + fault%first - 1
+      place%last = min(expression%last, expression%first + fault%last - 1)
+      place%column = expression%column + fault%first - 1
+      others = join(also, ', ')
+      if (len(others) > 0) others = others//', '
+      i = 0
+      if (fault%unknown_name) i = index_of_parameter(deck, token_text(deck, place))
+      if (.not. fault%unknown_name) then
+         call report_error(deck, place, 'E-EXPRESSION', fault%text, keyword=keyword, &
+                           expected='numbers, '//others//'earlier parameters, + - * / ** ( ), functions')
+      else if (i == 0) then
+         if (deck%has_lost_parameters) return
+         names = reserved_names()
+         call put_before(also, names)
+         call report_error(deck, place, 'E-EXPRESSION', fault%text, keyword=keyword, known=names, among=deck%parameter_names, &
+                           expected=others//'an earlier parameter, a function or pi')
+      else if (deck%parameters(i)%known) then
+         call report_later(deck, place, i, others//'an earlier parameter, a function or pi')
+      end if
+   end subroutine report_fault
+
+   !> Not an array constructor: what function results hold in one is never given back (gfortran 12).
+   pure subroutine put_before(first, names)
+      type(string_t), intent(in) :: first(:)                 !< names that come first; copied
+      type(string_t), allocatable, intent(inout) :: names(:) !< (n) becomes longer; its strings are moved
+      type(string_t), allocatable :: both(:)
+      integer :: i
+
+      allocate (both(size(first) + size(names)))
+      do i = 1, size(first)
+         both(i)%s = first(i)%s
+      end do
+      do i = 1, size(names)
+         call move_alloc(names(i)%s, both(size(first) + i)%s)
+      end do
+      call move_alloc(both, names)
+   end subroutine put_before
+
+   !> The parameters that an expression names, have values and are defined before its place: a deck can have thousands of others.
+   subroutine collect_known(deck, place, names, values)
+      type(deck_t), intent(in) :: deck                     !< its texts and parameters are read
+      type(token_t), intent(in) :: place                   !< of the expression
+      type(string_t), allocatable, intent(out) :: names(:) !< (n) in the order of their definitions
+      real(wp), allocatable, intent(out) :: values(:)      !< (n)
+      character(len=:), allocatable :: text
+      integer(ip), allocatable :: used(:)
+      integer(ip) :: i, n
+      integer :: first, last
+
+      text = token_text(deck, place)
+      n = 0
+      last = 0
+      do
+         call next_name(text, last, first)
+         if (first > len(text)) exit
+         i = index_of_parameter(deck, text(first:last))
+         if (.not. is_known_at(deck, i, place)) cycle
+         call make_room(used, n, n + 1)
+         n = n + 1
+         used(n) = i
+      end do
+      if (n > 0) used = each_once(used(:n))
+      if (n > 0) n = size(used, kind=ip)
+      allocate (names(n), values(n))
+      do i = 1, n
+         names(i)%s = deck%parameters(used(i))%name
+         values(i) = deck%parameters(used(i))%value
+      end do
+   end subroutine collect_known
+
+   !> A parameter has a value, and is defined before a place.
+   pure logical function is_known_at(deck, i, place)
+      type(deck_t), intent(in) :: deck                 !< its parameters are read
+      integer(ip), intent(in) :: i                     !< the parameter; 0: there is none
+      type(token_t), intent(in) :: place               !< of an expression
+
+      is_known_at = i > 0
+      if (is_known_at) is_known_at = deck%parameters(i)%known .and. &
+                                     deck%parameters(i)%order < reading_order(deck, place%source, place%line)
+   end function is_known_at
+
+   !> A parameter is used before its definition.
+   subroutine report_later(deck, place, i, what)
+      type(deck_t), intent(in) :: deck                 !< its texts and parameters are read
+      type(token_t), intent(in) :: place               !< of the name
+      integer(ip), intent(in) :: i                     !< the parameter
+      character(len=*), intent(in) :: what             !< what was expected
+
+      associate (parameter => deck%parameters(i))
+         call report_error(deck, place, 'E-PARAMETER', 'parameter '//token_text(deck, place)//' is used before its '// &
+                           'definition in '//deck%sources(parameter%place%source)%name//':'//to_text(parameter%place%line), &
+                           expected=what, keyword='PARAMETER')
+      end associate
+   end subroutine report_later
+
+   !> Index of a parameter, 0 when there is none of this name.
+   pure integer(ip) function index_of_parameter(deck, name) result(i)
+      type(deck_t), intent(in) :: deck     !< its parameters are read
+      character(len=*), intent(in) :: name !< without case
+
+      i = find_name(deck%parameter_names, name)
+   end function index_of_parameter
 
    !> The real value of an item: a number, `<expression>` or `-<expression>` of parameters.
    !> An empty item takes the default, or is an error when there is none. ok: .false. when reported.
@@ -71,76 +220,66 @@ contains
       end if
       associate (text => deck%sources(token%source)%text(token%first:token%last))
          if (index(text, '<') /= 1 .and. index(text, '-<') /= 1) then   ! value_of_expression checks the rest
-            call number_of_text(deck, token, text, what, is_whole, value, ok, keyword)
+            call number_of_text(text)
             return
          end if
       end associate
-      call value_of_expression(deck, token, what, value, ok, keyword)
+      call value_of_expression()
       if (.not. (ok .and. is_whole)) return
       ok = abs(value) <= real(huge(1_ip), wp) .and. abs(value - anint(value)) <= ROUND_OFF*abs(value)
       if (ok) value = anint(value)
       if (ok) return
       call report_error(deck, token, 'E-INTEGER', token_text(deck, token)//' is '//to_text(value)//', not an integer', &
                         expected=what, keyword=keyword)
+
+   contains
+
+      subroutine number_of_text(text)
+         character(len=*), intent(in) :: text
+         character(len=:), allocatable :: noun
+         integer(ip) :: i
+         integer :: outcome
+
+         if (is_whole) then
+            call read_integer(text, i, outcome)
+            value = real(i, wp)
+         else
+            call read_real(text, value, outcome)
+         end if
+         ok = outcome == NUMBER_OK
+         if (ok) return
+         noun = trim(merge('an integer', 'a real    ', is_whole))
+         select case (outcome)
+         case (NUMBER_TOO_LARGE)
+            call report_error(deck, token, 'E-NUMBER', text//' is too large for '//noun, expected=what, keyword=keyword)
+         case (NUMBER_NOT_INTEGER)
+            call report_error(deck, token, 'E-INTEGER', text//' is a real', expected=what, keyword=keyword)
+         case default
+            if (.not. is_whole) noun = 'a number'
+            call report_error(deck, token, 'E-NUMBER', "'"//text//"' is not "//noun, expected=what, keyword=keyword)
+         end select
+      end subroutine number_of_text
+
+      !> The value of `<expression>` or `-<expression>`; of a name alone it is that of the parameter.
+      subroutine value_of_expression()
+         character(len=:), allocatable :: text
+         type(token_t) :: place
+
+         value = 0.0_wp
+         text = token_text(deck, token)
+         place = part_of(deck, token, token%first + merge(2, 1, text(1:1) == '-'), token%last - 1)
+         ok = .not. is_empty_token(place) .and. text(len(text):) == '>'
+         if (.not. ok) then
+            call report_error(deck, token, 'E-NUMBER', "'"//text//"' is neither a number nor <expression> of parameters", &
+                              expected=what, keyword=keyword)
+         else if (is_own_name(deck, place)) then
+            call value_of_parameter(deck, place, what, value, ok)
+         else
+            call evaluate_at(deck, place, value, ok)
+         end if
+         if (ok .and. text(1:1) == '-') value = -value
+      end subroutine value_of_expression
    end subroutine get_number
-
-   subroutine number_of_text(deck, token, text, what, is_whole, value, ok, keyword)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: token
-      character(len=*), intent(in) :: text, what
-      logical, intent(in) :: is_whole
-      real(wp), intent(out) :: value
-      logical, intent(out) :: ok
-      character(len=*), intent(in), optional :: keyword
-      character(len=:), allocatable :: noun
-      integer(ip) :: i
-      integer :: outcome
-
-      if (is_whole) then
-         call read_integer(text, i, outcome)
-         value = real(i, wp)
-      else
-         call read_real(text, value, outcome)
-      end if
-      ok = outcome == NUMBER_OK
-      if (ok) return
-      noun = trim(merge('an integer', 'a real    ', is_whole))
-      select case (outcome)
-      case (NUMBER_TOO_LARGE)
-         call report_error(deck, token, 'E-NUMBER', text//' is too large for '//noun, expected=what, keyword=keyword)
-      case (NUMBER_NOT_INTEGER)
-         call report_error(deck, token, 'E-INTEGER', text//' is a real', expected=what, keyword=keyword)
-      case default
-         if (.not. is_whole) noun = 'a number'
-         call report_error(deck, token, 'E-NUMBER', "'"//text//"' is not "//noun, expected=what, keyword=keyword)
-      end select
-   end subroutine number_of_text
-
-   !> The value of `<expression>` or `-<expression>`; of a name alone it is that of the parameter.
-   subroutine value_of_expression(deck, token, what, value, ok, keyword)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: token
-      character(len=*), intent(in) :: what
-      real(wp), intent(out) :: value
-      logical, intent(out) :: ok
-      character(len=*), intent(in), optional :: keyword
-      character(len=:), allocatable :: text
-      type(token_t) :: place
-
-      value = 0.0_wp
-      text = token_text(deck, token)
-      place = part_of(deck, token, token%first + merge(2, 1, text(1:1) == '-'), token%last - 1)
-      ok = .not. is_empty_token(place) .and. text(len(text):) == '>'
-      if (.not. ok) then
-         call report_error(deck, token, 'E-NUMBER', "'"//text//"' is neither a number nor <expression> of parameters", &
-                           expected=what, keyword=keyword)
-      else if (is_own_name(deck, place)) then
-         call value_of_parameter(deck, place, what, value, ok)
-      else
-         call evaluate_at(deck, place, value, ok)
-      end if
-      if (ok .and. text(1:1) == '-') value = -value
-   end subroutine value_of_expression
 
    !> A name alone that is no constant of the expressions.
    pure logical function is_own_name(deck, place)
@@ -191,7 +330,7 @@ contains
       character(len=*), intent(in), optional :: keyword  !< for `atrito help KEYWORD`
 
       name = token_text(deck, token)
-      ok = len(name) > 0 .and. written_length(deck, token) <= LONGEST_NAME
+      ok = len(name) > 0 .and. token%last - token%first + 1 - merge(2, 0, is_quoted(deck, token)) <= LONGEST_NAME   ! as written
       if (len(name) == 0) then
          call report_error(deck, token, 'E-MISSING', 'a name is missing', expected=what, keyword=keyword)
       else if (.not. ok) then
@@ -324,11 +463,11 @@ contains
 
    !> Of a line of n values: `2,5` and `1,2e-5` are decimal commas, `7850, 20` and `7.85e-9,20` have a further item. False: the
    !> first, reported.
-   logical function check_comma(deck, line, n, expected, keyword) result(ok)
+   logical function check_comma(deck, line, n, expected) result(ok)
       type(deck_t), intent(in) :: deck                 !< as read; messages name its lines
       type(data_line_t), intent(in) :: line            !< data line
       integer(ip), intent(in) :: n                     !< values of a line
-      character(len=*), intent(in) :: expected, keyword !< for the message: items, and help of the card
+      character(len=*), intent(in) :: expected         !< for the message: items
       character(len=*), parameter :: DIGITS = '0123456789'
       character(len=:), allocatable :: behind
       type(token_t) :: value, next
@@ -341,7 +480,7 @@ contains
       behind = token_text(deck, next)
       ok = verify(token_text(deck, value)//behind(:1), DIGITS) > 0 .or. scan(behind, '.') > 0
       if (.not. ok) call report_error(deck, next, 'E-ITEMS', to_text(n + 1)//' items, where '//to_text(n)//' belong'// &
-                                      trim(merge('s', ' ', n == 1)), expected=expected, keyword=keyword)
+                                      trim(merge('s', ' ', n == 1)), expected=expected)
    end function check_comma
 
 end module atrito_items

@@ -1,13 +1,12 @@
 !> `*PARAMETER` and `--set`, expressions of parameters and of the place, and the parameters in words.
 module atrito_parameters
    use atrito_deck, only: deck_t, token_t, parameter_t, part_of, reading_order, token_text
-   use atrito_deck_expressions, only: evaluate_at, has_own_degree, report_fault, collect_known, put_before, index_of_parameter, &
-                                      is_known_at
+   use atrito_items, only: evaluate_at, has_own_degree, report_fault, collect_known, put_before, index_of_parameter, is_known_at, &
+                           LONGEST_NAME
    use atrito_diagnostics, only: report_error
    use atrito_expression_names, only: is_name, is_reserved_name, next_name
    use atrito_expressions, only: expression_fault_t, evaluate_expression
    use atrito_growth, only: growing_text_t, append_text, take_text
-   use atrito_items, only: LONGEST_NAME
    use atrito_kinds, only: ip, wp
    use atrito_lexer, only: find_equals
    use atrito_name_list, only: name_list_t, add_name, find_name, has_name, names_of

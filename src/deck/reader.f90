@@ -9,16 +9,15 @@ module atrito_reader
    use atrito_diagnostics, only: report_error, report_deck_error
    use atrito_files, only: read_file
    use atrito_gmsh_file, only: read_gmsh_text
-   use atrito_gmsh_mesh, only: gmsh_mesh_t
-   use atrito_gmsh_words, only: fault_t
+   use atrito_gmsh_mesh, only: gmsh_mesh_t, fault_t
    use atrito_includes, only: path_of_include, may_include, is_told
    use atrito_instances, only: expand_instances
    use atrito_items, only: has_option, option_text, option_word
-   use atrito_keyword, only: keyword_t, KIND_TEXT
+   use atrito_keyword, only: KIND_TEXT
    use atrito_keyword_table, only: define_keyword, take_table
    use atrito_lexer, only: line_t, items_t, take_line, split_items, count_data_lines, LINE_COMMENT, LINE_KEYWORD, LINE_DATA
    use atrito_memory, only: available_memory, memory_text
-   use atrito_note_edits, only: note_edits
+   use atrito_deck_as_run, only: note_edits
    use atrito_plain_lines, only: take_plain_lines
    use atrito_parameters, only: settings_t, read_settings, define_parameter, check_settings
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
@@ -91,6 +90,7 @@ contains
       ! lines and tokens are many: they keep their spare room
       deck%cards = deck%cards(:deck%n_cards)
       deck%parameters = deck%parameters(:deck%n_parameters)
+      deck%is_read = .true.
    end subroutine read_deck
 
    !> Reads a source to its end.
@@ -127,7 +127,7 @@ contains
          case (LINE_KEYWORD)
             call read_keyword_line(deck, reading, cursor, line)
          case (LINE_DATA)
-            call read_data_line(deck, reading, cursor, line)
+            call read_data_line()
          end select
          reading%may_be_plain = reading%mode == MODE_ITEMS .and. (line%kind == LINE_KEYWORD .or. line%kind == LINE_COMMENT)
       end do
@@ -135,6 +135,35 @@ contains
       do i = 1, deck%sources(source)%n_children
          deck%sources(source)%n_lines = deck%sources(source)%n_lines + deck%sources(deck%sources(source)%children(i))%n_lines
       end do
+
+   contains
+
+      subroutine read_data_line()
+         type(token_t) :: whole
+         integer(ip) :: i
+
+         if (line%control > 0 .and. reading%mode /= MODE_ITEMS) return
+         whole = token_at(cursor, line, line%first, line%last)
+         select case (reading%mode)
+         case (MODE_NO_KEYWORD)
+            call report_error(deck, whole, 'E-DATA', 'data before the first keyword', expected='*KEYWORD')
+            reading%mode = MODE_SKIP
+         case (MODE_TEXT, MODE_PARAMETER)
+            call append_line(deck)
+            call append_token(deck, whole)
+            deck%lines(deck%n_lines)%n_tokens = 1
+            if (reading%mode == MODE_PARAMETER) call define_parameter(deck, whole, reading%settings)
+         case (MODE_ITEMS)
+            call split_line(deck, reading, cursor, line)
+            call append_line(deck)
+            do i = 1, reading%items%n
+               call append_token(deck, token_at(cursor, line, reading%items%first(i), reading%items%last(i)))
+            end do
+            deck%lines(deck%n_lines)%n_tokens = reading%items%n
+            deck%lines(deck%n_lines)%ok = reading%items%bad_quote == 0 .and. line%control == 0
+         end select
+         if (deck%n_cards > 0) deck%cards(deck%n_cards)%n_lines = deck%n_lines - deck%cards(deck%n_cards)%first_line + 1
+      end subroutine read_data_line
    end subroutine read_source
 
    !> Takes the next line and reports a control character in it.
@@ -173,7 +202,7 @@ contains
       type(token_t), allocatable :: items(:)
       type(card_t) :: card
 
-      call gather_items(deck, reading, cursor, line, items)
+      call gather_items(items)
       call make_card(deck, items, card)
       if (card%keyword /= KEYWORD_UNKNOWN) call define_keyword(deck%definitions, deck%keywords(card%keyword))
       call check_order(deck, reading%order, card)
@@ -182,46 +211,70 @@ contains
          call read_include(deck, reading, cursor, card)
       else
          call finish_card(deck)
-         call begin_card(deck, reading, card)
+         call begin_card()
       end if
+
+   contains
+
+      !> The items of a keyword line; a comma at its end goes on with the next line, if that has options.
+      subroutine gather_items(items)
+         type(token_t), allocatable, intent(out) :: items(:)
+         type(line_t) :: next
+         type(cursor_t) :: ahead
+         integer(ip) :: n, i
+         logical :: goes_on
+
+         allocate (items(16))
+         n = 0
+         next = line
+         associate (text => deck%sources(cursor%source)%text)
+            do
+               call split_line(deck, reading, cursor, next)
+               ! Appends the items of a line to a list of n so far, which doubles where it is too short.
+               do while (n + reading%items%n > size(items))
+                  items = [items, items]
+               end do
+               do i = 1, reading%items%n
+                  items(n + i) = token_at(cursor, next, reading%items%first(i), reading%items%last(i))
+               end do
+               n = n + reading%items%n
+               if (text(next%last:next%last) /= ',') exit
+               ahead = cursor
+               call look_ahead(deck, ahead, next, goes_on)
+               if (goes_on) goes_on = has_options(deck, text(items(1)%first:items(1)%last), text(next%first:next%last))
+               if (.not. goes_on) exit
+               cursor = ahead
+            end do
+         end associate
+         items = items(:n)
+      end subroutine gather_items
+
+      subroutine begin_card()
+
+         card%first_line = deck%n_lines + 1
+         reading%mode = MODE_SKIP
+         if (card%keyword /= KEYWORD_UNKNOWN) then
+            call check_options(deck, card)
+            reading%mode = MODE_ITEMS
+            associate (forms => deck%keywords(card%keyword)%forms)
+               if (size(forms) > 0) reading%mode = merge(MODE_TEXT, MODE_ITEMS, forms(1)%items(1)%kind == KIND_TEXT)
+            end associate
+            if (card%name == 'PARAMETER') reading%mode = MODE_PARAMETER
+         else if (card%meant == 'NODE' .or. card%meant == 'ELEMENT') then
+            reading%mode = MODE_ITEMS                     ! the numbers of its lines are not unknown, they are lost
+         else if (card%meant == 'PARAMETER') then
+            deck%has_lost_parameters = .true.
+         end if
+         if (card%is_refused) then
+            reading%mode = MODE_SKIP
+            card%keyword = KEYWORD_UNKNOWN
+            card%name = ''
+         end if
+         deck%is_outside = deck%is_outside .or. card%is_outside
+         if (deck%subject == 0) deck%subject = card%subject
+         call append_card(deck, card)
+      end subroutine begin_card
    end subroutine read_keyword_line
-
-   !> The items of a keyword line; a comma at its end goes on with the next line, if that has options.
-   subroutine gather_items(deck, reading, cursor, line, items)
-      type(deck_t), intent(in) :: deck
-      type(reading_t), intent(inout) :: reading
-      type(cursor_t), intent(inout) :: cursor
-      type(line_t), intent(in) :: line
-      type(token_t), allocatable, intent(out) :: items(:)
-      type(line_t) :: next
-      type(cursor_t) :: ahead
-      integer(ip) :: n, i
-      logical :: goes_on
-
-      allocate (items(16))
-      n = 0
-      next = line
-      associate (text => deck%sources(cursor%source)%text)
-         do
-            call split_line(deck, reading, cursor, next)
-            ! Appends the items of a line to a list of n so far, which doubles where it is too short.
-            do while (n + reading%items%n > size(items))
-               items = [items, items]
-            end do
-            do i = 1, reading%items%n
-               items(n + i) = token_at(cursor, next, reading%items%first(i), reading%items%last(i))
-            end do
-            n = n + reading%items%n
-            if (text(next%last:next%last) /= ',') exit
-            ahead = cursor
-            call look_ahead(deck, ahead, next, goes_on)
-            if (goes_on) goes_on = has_options(deck, text(items(1)%first:items(1)%last), text(next%first:next%last))
-            if (.not. goes_on) exit
-            cursor = ahead
-         end do
-      end associate
-      items = items(:n)
-   end subroutine gather_items
 
    !> The next line with something on it; found: it is no keyword line.
    subroutine look_ahead(deck, cursor, line, found)
@@ -255,40 +308,6 @@ contains
       end if
    end subroutine split_line
 
-   subroutine begin_card(deck, reading, card)
-      type(deck_t), intent(inout) :: deck
-      type(reading_t), intent(inout) :: reading
-      type(card_t), intent(inout) :: card
-
-      card%first_line = deck%n_lines + 1
-      reading%mode = MODE_SKIP
-      if (card%keyword /= KEYWORD_UNKNOWN) then
-         call check_options(deck, card)
-         reading%mode = mode_of(deck%keywords(card%keyword))
-      else if (card%meant == 'NODE' .or. card%meant == 'ELEMENT') then
-         reading%mode = MODE_ITEMS                     ! the numbers of its lines are not unknown, they are lost
-      else if (card%meant == 'PARAMETER') then
-         deck%has_lost_parameters = .true.
-      end if
-      if (card%is_refused) then
-         reading%mode = MODE_SKIP
-         card%keyword = KEYWORD_UNKNOWN
-         card%name = ''
-      end if
-      deck%is_outside = deck%is_outside .or. card%is_outside
-      if (deck%subject == 0) deck%subject = card%subject
-      call append_card(deck, card)
-   end subroutine begin_card
-
-   pure integer function mode_of(keyword) result(mode)
-      type(keyword_t), intent(in) :: keyword
-
-      mode = MODE_ITEMS
-      if (keyword%name == 'PARAMETER') mode = MODE_PARAMETER
-      if (mode == MODE_PARAMETER .or. size(keyword%forms) == 0) return
-      if (keyword%forms(1)%items(1)%kind == KIND_TEXT) mode = MODE_TEXT
-   end function mode_of
-
    !> Checks the data lines of the card read last.
    subroutine finish_card(deck)
       type(deck_t), intent(inout) :: deck
@@ -301,37 +320,6 @@ contains
       deck%cards(deck%n_cards)%n_lines = card%n_lines
       deck%n_lines = card%first_line + card%n_lines - 1
    end subroutine finish_card
-
-   subroutine read_data_line(deck, reading, cursor, line)
-      type(deck_t), intent(inout) :: deck
-      type(reading_t), intent(inout) :: reading
-      type(cursor_t), intent(in) :: cursor
-      type(line_t), intent(in) :: line
-      type(token_t) :: whole
-      integer(ip) :: i
-
-      if (line%control > 0 .and. reading%mode /= MODE_ITEMS) return
-      whole = token_at(cursor, line, line%first, line%last)
-      select case (reading%mode)
-      case (MODE_NO_KEYWORD)
-         call report_error(deck, whole, 'E-DATA', 'data before the first keyword', expected='*KEYWORD')
-         reading%mode = MODE_SKIP
-      case (MODE_TEXT, MODE_PARAMETER)
-         call append_line(deck)
-         call append_token(deck, whole)
-         deck%lines(deck%n_lines)%n_tokens = 1
-         if (reading%mode == MODE_PARAMETER) call define_parameter(deck, whole, reading%settings)
-      case (MODE_ITEMS)
-         call split_line(deck, reading, cursor, line)
-         call append_line(deck)
-         do i = 1, reading%items%n
-            call append_token(deck, token_at(cursor, line, reading%items%first(i), reading%items%last(i)))
-         end do
-         deck%lines(deck%n_lines)%n_tokens = reading%items%n
-         deck%lines(deck%n_lines)%ok = reading%items%bad_quote == 0 .and. line%control == 0
-      end select
-      if (deck%n_cards > 0) deck%cards(deck%n_cards)%n_lines = deck%n_lines - deck%cards(deck%n_cards)%first_line + 1
-   end subroutine read_data_line
 
    !> Reads the file that an *INCLUDE names, in its place.
    recursive subroutine read_include(deck, reading, cursor, card)
@@ -381,40 +369,38 @@ contains
       deck%sources(source)%include_first = card%place%first - card%place%column + 1
       deck%sources(source)%include_last = min(cursor%position - 1, len(deck%sources(cursor%source)%text, kind=ip))
       if (option_word(deck, card, 'TYPE') == 'GMSH') then
-         call read_mesh_file(deck, reading, source, card)
+         call read_mesh_file()
          return
       end if
       reading%depth = reading%depth + 1
       call read_source(deck, reading, source)
       reading%depth = reading%depth - 1
+
+   contains
+
+      !> A mesh in a file of another program. Messages of what stands in it name the *INCLUDE.
+      subroutine read_mesh_file()
+         type(card_t) :: mesh_card
+         type(gmsh_mesh_t) :: mesh
+         type(fault_t) :: fault
+
+         call finish_card(deck)
+         mesh%file = deck%sources(source)%name
+         deck%sources(source)%is_mesh = .true.
+         call read_gmsh_text(deck%sources(source)%text, mesh, fault)
+         mesh_card = card
+         mesh_card%first_line = deck%n_lines + 1
+         mesh_card%ok = card%ok .and. .not. allocated(fault%text)
+         reading%mode = MODE_ITEMS
+         call append_card(deck, mesh_card)
+         if (allocated(fault%text)) then
+            call report_error(deck, token_t(source, 0_ip, fault%line, fault%column, fault%first, fault%last), 'E-GMSH', &
+                              fault%text, expected=fault%expected, keyword='INCLUDE')
+         end if
+         deck%sources(source)%n_lines = int(count_symbol(deck%sources(source)%text, achar(10)), ip)
+         call append_mesh(deck, mesh)
+      end subroutine read_mesh_file
    end subroutine read_include
-
-   !> A mesh in a file of another program. Messages of what stands in it name the *INCLUDE.
-   subroutine read_mesh_file(deck, reading, source, card)
-      type(deck_t), intent(inout) :: deck
-      type(reading_t), intent(inout) :: reading
-      integer(ip), intent(in) :: source
-      type(card_t), intent(in) :: card
-      type(card_t) :: mesh_card
-      type(gmsh_mesh_t) :: mesh
-      type(fault_t) :: fault
-
-      call finish_card(deck)
-      mesh%file = deck%sources(source)%name
-      deck%sources(source)%is_mesh = .true.
-      call read_gmsh_text(deck%sources(source)%text, mesh, fault)
-      mesh_card = card
-      mesh_card%first_line = deck%n_lines + 1
-      mesh_card%ok = card%ok .and. .not. allocated(fault%text)
-      reading%mode = MODE_ITEMS
-      call append_card(deck, mesh_card)
-      if (allocated(fault%text)) then
-         call report_error(deck, token_t(source, 0_ip, fault%line, fault%column, fault%first, fault%last), 'E-GMSH', fault%text, &
-                           expected=fault%expected, keyword='INCLUDE')
-      end if
-      deck%sources(source)%n_lines = int(count_symbol(deck%sources(source)%text, achar(10)), ip)
-      call append_mesh(deck, mesh)
-   end subroutine read_mesh_file
 
    !> Makes room for the items of a large file. False, and an error, when they need more memory than there is.
    logical function fits_memory(deck, source) result(fits)

@@ -19,9 +19,8 @@ module atrito_balance_probe
    use atrito_stability_result, only: collapse_t
    use atrito_stability_search, only: STANDS, FALLS, UNDECIDED
    use atrito_status, only: status_t, is_ok
-   use atrito_step_loads, only: moment_t
+   use atrito_step_loads, only: moment_t, load_breakpoints
    use atrito_strings, only: to_text
-   use atrito_amplitudes, only: load_breakpoints
    implicit none (type, external)
    private
    public :: probe_balance, predict_share, describe_gaps

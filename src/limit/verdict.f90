@@ -6,7 +6,7 @@ module atrito_verdict
    use atrito_clp, only: clp_trouble
    use atrito_contact_form, only: CONTACT_SPARSE
    use atrito_contact_problem, only: set_known_points
-   use atrito_end_points, only: add_end_points
+   use atrito_pairing, only: add_end_points
    use atrito_free_motion, only: free_motion_text
    use atrito_dense, only: null_space
    use atrito_kinds, only: ip, wp

@@ -46,9 +46,38 @@ contains
       call list_pieces(mesh, trees, pieces)
       trees%leaf_of = pieces%leaf(:pieces%n)
       call number_nodes(mesh, pieces, refinement, edge_key, inner_key)
-      call straighten(mesh, pieces, inner_key, refinement)
+      call straighten()
       call place_nodes(mesh, refinement, fine)
       call place_elements(mesh, pieces, edge_key, inner_key, refinement, fine)
+
+   contains
+
+      !> Middles of inner sides that run aslant through an element with straight sides go to the middles of their chords; the map
+      !> makes
+      !> such lines curved, x = c_0 + c_1 s + c_2 t + c_3 s t, and bounds of the error ask for straight ones.
+      subroutine straighten()
+         integer(ip) :: i, k, n, edge, node, at
+         integer(lp) :: key
+         real(wp) :: ends(2, 2)
+
+         do i = 1, pieces%n
+            if (SHAPES(pieces%shape(i))%degree == 1) cycle
+            if (refinement%is_triangle(pieces%root(i))) cycle
+            if (.not. is_bilinear(mesh, pieces%root(i))) cycle
+            n = SHAPES(pieces%shape(i))%n_corners
+            do k = 1, n
+               ends = real(pieces%place(:, [k, mod(k, n) + 1], i), wp)/SIDE
+               if (any(ends(:, 1) == ends(:, 2))) cycle
+               call sort_place(mesh, refinement, pieces%root(i), pieces%place(:, n + k, i), edge, key, node)
+               if (node > 0 .or. edge > 0) cycle
+               associate (first => refinement%inner_first(pieces%root(i)), last => refinement%inner_first(pieces%root(i) + 1) - 1, &
+                          before => refinement%inner_first(1) - 1)
+                  at = first - 1 + first_at_least(inner_key(first - before:last - before), key) - before
+               end associate
+               refinement%inner_place(:, at) = chord_middle(mesh%x(:, mesh%nodes(:4, pieces%root(i))), ends)
+            end do
+         end do
+      end subroutine straighten
    end subroutine cut_mesh
 
    !> The pieces of all leaves: by their element of the deck, then by their middles row by row from its first side.
@@ -298,36 +327,6 @@ contains
       refinement%inner_place(1, :) = real(mod(inner_key, ROW), wp)/SIDE
       refinement%inner_place(2, :) = real(inner_key/ROW, wp)/SIDE
    end subroutine number_nodes
-
-   !> Middles of inner sides that run aslant through an element with straight sides go to the middles of their chords; the map makes
-   !> such lines curved, x = c_0 + c_1 s + c_2 t + c_3 s t, and bounds of the error ask for straight ones.
-   subroutine straighten(mesh, pieces, inner_key, refinement)
-      type(mesh_t), intent(in) :: mesh
-      type(pieces_t), intent(in) :: pieces
-      integer(lp), intent(in) :: inner_key(:)
-      type(refinement_t), intent(inout) :: refinement
-      integer(ip) :: i, k, n, edge, node, at
-      integer(lp) :: key
-      real(wp) :: ends(2, 2)
-
-      do i = 1, pieces%n
-         if (SHAPES(pieces%shape(i))%degree == 1) cycle
-         if (refinement%is_triangle(pieces%root(i))) cycle
-         if (.not. is_bilinear(mesh, pieces%root(i))) cycle
-         n = SHAPES(pieces%shape(i))%n_corners
-         do k = 1, n
-            ends = real(pieces%place(:, [k, mod(k, n) + 1], i), wp)/SIDE
-            if (any(ends(:, 1) == ends(:, 2))) cycle
-            call sort_place(mesh, refinement, pieces%root(i), pieces%place(:, n + k, i), edge, key, node)
-            if (node > 0 .or. edge > 0) cycle
-            associate (first => refinement%inner_first(pieces%root(i)), last => refinement%inner_first(pieces%root(i) + 1) - 1, &
-                       before => refinement%inner_first(1) - 1)
-               at = first - 1 + first_at_least(inner_key(first - before:last - before), key) - before
-            end associate
-            refinement%inner_place(:, at) = chord_middle(mesh%x(:, mesh%nodes(:4, pieces%root(i))), ends)
-         end do
-      end do
-   end subroutine straighten
 
    !> Whether middles of sides and the centre are where the corners alone would have them.
    pure logical function is_bilinear(mesh, e)

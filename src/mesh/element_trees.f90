@@ -22,7 +22,7 @@ module atrito_element_trees
    use atrito_mesh, only: mesh_t, side_count
    implicit none (type, external)
    private
-   public :: code_of_tree, take_code, is_code
+   public :: code_of_tree, take_code
    public :: element_trees_t, begin_trees, cut_all, cut_cell, cut_leaves, count_leaves, is_side_cut, list_leaves
    public :: part_count
    public :: SIDE, MOST_CUTS, corner_count
@@ -365,7 +365,7 @@ contains
    !> Cuts an element as a word says; what is cut already stays cut. The neighbours are not looked after.
    pure subroutine take_code(root, code, trees)
       integer(ip), intent(in) :: root                 !< element of the deck
-      character(len=*), intent(in) :: code            !< is_code
+      character(len=*), intent(in) :: code            !< of letters C, c and L, l, as code_of_tree writes it
       type(element_trees_t), intent(inout) :: trees   !< gets the cells that the word asks for
       integer :: position
 
@@ -391,12 +391,5 @@ contains
       end subroutine take
 
    end subroutine take_code
-
-   !> Whether a word is one of these.
-   pure logical function is_code(word)
-      character(len=*), intent(in) :: word !< as the user wrote it
-
-      is_code = len(word) > 0 .and. verify(word, 'CLcl') == 0
-   end function is_code
 
 end module atrito_element_trees

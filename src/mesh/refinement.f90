@@ -220,7 +220,7 @@ contains
 
       if (allocated(refinement%inner_place)) then
          do k = refinement%inner_first(element), refinement%inner_first(element + 1) - 1
-            x(:, k) = point_in(mesh, element, refinement%inner_place(:, k - refinement%inner_first(1) + 1))
+            x(:, k) = point_in(refinement%inner_place(:, k - refinement%inner_first(1) + 1))
          end do
       else
          call fill_grid(mesh, refinement, element, grid)
@@ -228,61 +228,71 @@ contains
          do j = 0, n
             do i = 0, merge(n - j, n, refinement%is_triangle(element))
                k = grid(i, j)
-               if (k > mesh%n_nodes) x(:, k) = point_in(mesh, element, [real(i, wp)/real(n, wp), real(j, wp)/real(n, wp)])
+               if (k > mesh%n_nodes) x(:, k) = point_in([real(i, wp)/real(n, wp), real(j, wp)/real(n, wp)])
             end do
          end do
       end if
       do i = 1, side_count(mesh, element)
          associate (edge => refinement%face_edge(i, element), node => refinement%edge_node(:, refinement%face_edge(i, element)))
             do k = refinement%edge_first(edge), refinement%edge_first(edge + 1) - 1
-               x(:, k) = along(mesh, node(1), node(2), node(3), edge_place(refinement, edge, k))
+               x(:, k) = along(node(1), node(2), node(3), edge_place(refinement, edge, k))
             end do
          end associate
       end do
+
+   contains
+
+      !> The point of an element at s, 0..1 along its side 1-2, and t along 1-4, or 1-3 of a triangle [L].
+      !>
+      !> The map of a quadrilateral is a line (or a parabola, of the second degree) in s through points that lie on lines
+      !> (parabolas)
+      !> in t: through nodes 1 and 4, nodes 2 and 3, and the middles. The differences are formed first, so that a constant
+      !> coordinate
+      !> stays constant to the last bit.
+      pure function point_in(place) result(x)
+         real(wp), intent(in) :: place(2)              !< s, t
+         real(wp) :: x(2), line(2, 3)
+
+         associate (nodes => mesh%nodes(:, element), s => place(1), t => place(2))
+            if (side_count(mesh, element) == 3) then
+               x = triangle_point(element_coordinates(mesh, element), place)
+               return
+            end if
+            line(:, 1) = along(nodes(1), nodes(4), nodes(8), t)
+            line(:, 2) = along(nodes(2), nodes(3), nodes(6), t)
+            if (DEGREE_OF(mesh%shape(element)) > 1) then
+               line(:, 3) = parabola(mesh%x(:, nodes(5)), mesh%x(:, nodes(7)), centre_of(), t)
+               x = parabola(line(:, 1), line(:, 2), line(:, 3), s)
+            else
+               x = line(:, 1) + s*(line(:, 2) - line(:, 1))
+            end if
+         end associate
+      end function point_in
+
+      !> The middle of an element of the second degree [L]; of eight nodes where their shape functions have it.
+      pure function centre_of() result(x)
+         real(wp) :: x(2), away(2, 8)
+
+         associate (nodes => mesh%nodes(:, element))
+            if (has_centre(mesh, element)) then
+               x = mesh%x(:, nodes(9))
+            else
+               away = mesh%x(:, nodes(:8)) - spread(mesh%x(:, nodes(1)), 2, 8)
+               x = mesh%x(:, nodes(1)) + (0.5_wp*sum(away(:, 5:), dim=2) - 0.25_wp*sum(away(:, :4), dim=2))
+            end if
+         end associate
+      end function centre_of
+
+      !> The point t = 0..1 of the straight line between two nodes, or of the parabola through a third one in their middle; 0: none.
+      pure function along(first, last, middle, t) result(x)
+         integer(ip), intent(in) :: first, last, middle
+         real(wp), intent(in) :: t
+         real(wp) :: x(2)
+
+         x = mesh%x(:, first) + t*(mesh%x(:, last) - mesh%x(:, first))
+         if (middle > 0) x = parabola(mesh%x(:, first), mesh%x(:, last), mesh%x(:, middle), t)
+      end function along
    end subroutine map_element
-
-   !> The point of an element at s, 0..1 along its side 1-2, and t along 1-4, or 1-3 of a triangle [L].
-   !>
-   !> The map of a quadrilateral is a line (or a parabola, of the second degree) in s through points that lie on lines (parabolas)
-   !> in t: through nodes 1 and 4, nodes 2 and 3, and the middles. The differences are formed first, so that a constant coordinate
-   !> stays constant to the last bit.
-   pure function point_in(mesh, element, place) result(x)
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: element
-      real(wp), intent(in) :: place(2)              !< s, t
-      real(wp) :: x(2), line(2, 3)
-
-      associate (nodes => mesh%nodes(:, element), s => place(1), t => place(2))
-         if (side_count(mesh, element) == 3) then
-            x = triangle_point(element_coordinates(mesh, element), place)
-            return
-         end if
-         line(:, 1) = along(mesh, nodes(1), nodes(4), nodes(8), t)
-         line(:, 2) = along(mesh, nodes(2), nodes(3), nodes(6), t)
-         if (DEGREE_OF(mesh%shape(element)) > 1) then
-            line(:, 3) = parabola(mesh%x(:, nodes(5)), mesh%x(:, nodes(7)), centre_of(mesh, element), t)
-            x = parabola(line(:, 1), line(:, 2), line(:, 3), s)
-         else
-            x = line(:, 1) + s*(line(:, 2) - line(:, 1))
-         end if
-      end associate
-   end function point_in
-
-   !> The middle of an element of the second degree [L]; of eight nodes where their shape functions have it.
-   pure function centre_of(mesh, element) result(x)
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: element
-      real(wp) :: x(2), away(2, 8)
-
-      associate (nodes => mesh%nodes(:, element))
-         if (has_centre(mesh, element)) then
-            x = mesh%x(:, nodes(9))
-         else
-            away = mesh%x(:, nodes(:8)) - spread(mesh%x(:, nodes(1)), 2, 8)
-            x = mesh%x(:, nodes(1)) + (0.5_wp*sum(away(:, 5:), dim=2) - 0.25_wp*sum(away(:, :4), dim=2))
-         end if
-      end associate
-   end function centre_of
 
    !> Place 0..1 of a new node on its coarse edge, from the edge's first node.
    pure real(wp) function edge_place(refinement, edge, node) result(t)
@@ -299,17 +309,6 @@ contains
       if (refinement%edge_node(3, edge) > 0 .and. 2*position >= intervals) position = position + 1
       t = real(position, wp)/real(intervals, wp)
    end function edge_place
-
-   !> The point t = 0..1 of the straight line between two nodes, or of the parabola through a third one in their middle; 0: none.
-   pure function along(mesh, first, last, middle, t) result(x)
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: first, last, middle
-      real(wp), intent(in) :: t
-      real(wp) :: x(2)
-
-      x = mesh%x(:, first) + t*(mesh%x(:, last) - mesh%x(:, first))
-      if (middle > 0) x = parabola(mesh%x(:, first), mesh%x(:, last), mesh%x(:, middle), t)
-   end function along
 
    !> The point t = 0..1 of the parabola that is at a for t = 0, at `middle` for t = 1/2 and at b for t = 1: the straight line, and
    !> 4 t (1 - t) times what the middle is off its chord by.

@@ -5,8 +5,7 @@
 !> only once an error has been reported, so a deck is never accepted with something left out.
 module atrito_build_context
    use atrito_build_parts, only: drawn_lines_t, open_step_t, inherited_t, replaced_t, numbered_t, block_t, section_cut_t, &
-                                 node_finder_t, BLOCK_SIDES, LOOSE_HELD, LOOSE_RELEASED, LOOSE_MOVES
-   use atrito_curves, only: curve_list_t, line_list_t
+                                 node_finder_t, BLOCK_SIDES, LOOSE_HELD, LOOSE_RELEASED, LOOSE_MOVES, curve_list_t, line_list_t
    use atrito_deck, only: deck_t, card_t, token_t, data_line_t, token_text, is_empty_token, line_item, keyword_name, scope_shift, &
                           scope_text, model_number
    use atrito_diagnostics, only: report_error
@@ -18,8 +17,8 @@ module atrito_build_context
    use atrito_kinds, only: ip, lp, wp
    use atrito_messages, only: count_messages, SEVERITY_ERROR
    use atrito_model, only: model_t
-   use atrito_motion, only: motion_t
-   use atrito_named_nodes, only: part_place_name
+   use atrito_coordinates, only: motion_t
+   use atrito_sets, only: part_place_name
    use atrito_name_list, only: name_list_t, add_name, find_name, has_name
    use atrito_numbers, only: read_integer, NUMBER_OK
    use atrito_refinement, only: refinement_t
@@ -366,22 +365,20 @@ contains
    end function place_text
 
    !> Keeps where the i-th node or element comes from; a number given twice is an error, i being the place of the earlier one.
-   subroutine note_number(deck, numbered, noun, id, i, place, known, keyword)
+   subroutine note_number(deck, numbered, noun, id, i, place, known)
       type(deck_t), intent(in) :: deck                 !< as read; messages name its lines
       type(numbered_t), intent(inout) :: numbered      !< nodes or elements; gets place and greatest
       character(len=*), intent(in) :: noun             !< 'node' or 'element'
       integer(ip), intent(in) :: id, i                 !< number in the model, and place in the mesh
       integer(ip), intent(in) :: place                 !< token (> 0) or card (< 0) of the deck
       logical, intent(in) :: known                     !< the number is given twice
-      character(len=*), intent(in) :: keyword          !< of the card, for `atrito help KEYWORD`
       type(token_t) :: token
 
       if (known) then
          token = place_token(deck, place)
          call report_error(deck, token, 'E-TWICE', noun//' '//to_text(id - scope_shift(deck, token))//scope_text(deck, token)// &
-                           ' is given twice, first in '// &
-                           place_text(deck, place_token(deck, numbered%place(i)), token), &
-                           expected=trim(merge('an', 'a ', noun == 'element'))//' '//noun//' number that is free', keyword=keyword)
+                           ' is given twice, first in '//place_text(deck, place_token(deck, numbered%place(i)), token), &
+                           expected=trim(merge('an', 'a ', noun == 'element'))//' '//noun//' number that is free')
       else
          call note_place(numbered%place, i, place)
          numbered%greatest = max(numbered%greatest, id)
@@ -437,8 +434,7 @@ contains
       if (.not. found) return
       if (has_name(names, name)) then
          call report_error(deck, place, 'E-TWICE', noun//' '//name//' is defined twice, first in '// &
-                           place_text(deck, places(find_name(names, name)), place), &
-                           expected='a name that no other '//noun//' has', keyword=keyword_name(card))
+                           place_text(deck, places(find_name(names, name)), place), expected='a name that no other '//noun//' has')
          return
       end if
       call add_name(names, name)

@@ -1,60 +1,57 @@
 !> The deck's meaning: all cards to one model.
+!>
+!> *INSTANCE: where the instances of parts stand.
 module atrito_build_model
    use atrito_adjustment, only: adjusted_t, adjust_pairs, close_adjusted
    use atrito_axis, only: hold_axis, check_axis
    use atrito_bilateral_rows, only: trim_rows
-   use atrito_build_amplitudes, only: build_amplitudes
    use atrito_build_block, only: read_block_card, place_block_elements
-   use atrito_build_contact, only: build_contact
+   use atrito_build_contact, only: build_contact, contact_rules_t, read_contact_rules
    use atrito_build_context, only: build_context_t, prepare_context, has_errors
-   use atrito_build_cuts, only: place_cuts
    use atrito_build_elements, only: read_element_card, read_elgen_card
    use atrito_build_equations, only: build_equations
    use atrito_build_gmsh, only: read_mesh_nodes, read_mesh_elements
-   use atrito_build_instances, only: build_instances
    use atrito_build_lines, only: is_line_card, read_lines, read_curves, turn_elements
    use atrito_build_loads, only: build_loads
    use atrito_build_materials, only: build_materials
    use atrito_build_nodes, only: note_digits, read_node_card, read_fill_card
-   use atrito_build_paths, only: place_paths
+   use atrito_drawn_lines, only: place_paths, place_cuts
    use atrito_build_pretension, only: build_pretension, add_pretension_rows
    use atrito_build_requests, only: build_requests
    use atrito_build_rigid_bodies, only: build_rigid_bodies, make_solver_mesh
    use atrito_build_sets, only: try_set_card, read_set_card, read_copy_card
    use atrito_build_springs, only: build_springs, is_spring_card
-   use atrito_build_steps, only: build_steps, open_step
+   use atrito_build_steps, only: build_amplitudes, build_steps, open_step
    use atrito_build_supports, only: build_supports
    use atrito_build_surfaces, only: build_surfaces
    use atrito_build_ties, only: read_ties, check_ties, build_ties
-   use atrito_build_trees, only: build_trees, has_cuts
+   use atrito_refine_model, only: build_trees, has_cuts, cut_model, refine_model
    use atrito_check_contact, only: check_surfaces_of_pairs, check_points_of_pairs, note_unused_interactions
    use atrito_check_contact_sense, only: warn_of_overlap, warn_of_loaded_contact, warn_of_pairs_twice
    use atrito_check_mesh, only: check_mesh
    use atrito_clearance, only: clearance_t, interference_t, read_clearances, read_interferences, set_clearances, set_interferences
    use atrito_contact_roles, only: choose_roles
-   use atrito_contact_rules, only: contact_rules_t, read_contact_rules
-   use atrito_deck, only: deck_t, count_lines, token_t, token_text, line_item, keyword_name
+   use atrito_deck, only: deck_t, count_lines, token_t, token_text, line_item, keyword_name, card_t
    use atrito_diagnostics, only: report_error
    use atrito_element_trees, only: element_trees_t, list_leaves
    use atrito_faces, only: chain_report_t, list_node_elements
    use atrito_found_contact, only: find_contact
-   use atrito_kinds, only: ip, lp
+   use atrito_items, only: option_text
+   use atrito_kinds, only: ip, lp, wp
    use atrito_local_axes, only: read_local_axes
    use atrito_memory, only: available_memory
    use atrito_mesh, only: trim_mesh
    use atrito_messages, only: message_mark_t, mark_messages, forget_messages
-   use atrito_model, only: model_t, observed_line_t
+   use atrito_model, only: model_t, observed_line_t, units_t, N_UNITS
+   use atrito_coordinates, only: read_shift, read_rotation
    use atrito_node_fields, only: read_temperatures, read_node_thickness, check_temperatures
    use atrito_pairing, only: order_slaves, pair_all
    use atrito_plane_state, only: FULL_STATE
    use atrito_points, only: contact_points_t
-   use atrito_refine_model, only: cut_model, refine_model
+   use atrito_propagation, only: keep_sources
    use atrito_refined_deck, only: note_free_sides
-   use atrito_row_dofs, only: add_rigid_rows
-   use atrito_sources, only: keep_sources
+   use atrito_row_dofs, only: add_rigid_rows, turn_supports
    use atrito_strings, only: deck_name
-   use atrito_turn_supports, only: turn_supports
-   use atrito_units, only: units_t, N_UNITS
    implicit none (type, external)
    private
    public :: build_model, list_observed
@@ -275,12 +272,12 @@ contains
             if (keyword_name(card) /= 'UNITS' .or. card%n_lines == 0) cycle
             if (.not. deck%lines(card%first_line)%ok) cycle
             if (allocated(units%names(1)%s)) call report_error(deck, card%place, 'E-TWICE', '*UNITS is given twice', &
-                                                               expected='one *UNITS a deck', keyword='UNITS')
+                                                               expected='one *UNITS a deck')
             do k = 1, min(N_UNITS, deck%lines(card%first_line)%n_tokens)
                item = line_item(deck, deck%lines(card%first_line), k)
                units%names(k)%s = token_text(deck, item)
-               if (scan(units%names(k)%s, NOT_OF_A_UNIT) > 0) call report_error(deck, item, 'E-NAME', &
-                                             'no name of a unit', expected='a name without any of '//NOT_OF_A_UNIT, keyword='UNITS')
+               if (scan(units%names(k)%s, NOT_OF_A_UNIT) > 0) call report_error(deck, item, 'E-NAME', 'no name of a unit', &
+                                                                                expected='a name without any of '//NOT_OF_A_UNIT)
                if (len(units%names(k)%s) == 0) deallocate (units%names(k)%s)
             end do
          end associate
@@ -382,5 +379,54 @@ contains
          end do
       end do
    end subroutine list_observed
+
+   !> The motions of all instances and, for people, where their numbers begin. Of a deck without parts there are none.
+   subroutine build_instances(context)
+      type(build_context_t), intent(inout) :: context !< gets motions, its model instances
+      type(card_t) :: card
+      integer(ip) :: i, n
+      logical :: found
+
+      n = 0
+      if (allocated(context%deck%scopes)) n = size(context%deck%scopes, kind=ip) - 1
+      allocate (context%model%instances(n), context%motions(0:n))
+      do i = 1, n
+         associate (scope => context%deck%scopes(i), instance => context%model%instances(i))
+            if (.not. scope%ok) cycle
+            card = context%deck%cards(scope%card)      ! a line of the translation, and one of the rotation
+            associate (deck => context%deck, motion => context%motions(i))
+               if (card%n_lines > 0) then
+                  if (deck%lines(card%first_line)%ok) call read_shift(deck, deck%lines(card%first_line), motion, found)
+               end if
+               if (card%n_lines > 1) then
+                  if (deck%lines(card%first_line + 1)%ok) call read_rotation(deck, deck%lines(card%first_line + 1), 1.0_wp, &
+                                                                             motion, found)
+               end if
+            end associate
+            instance%name = scope%name
+            call option_text(context%deck, card, 'PART', instance%part, found)
+            instance%first_number = min(scope%shift, huge(scope%shift) - 1) + 1 ! too many are refused
+            instance%shift = context%motions(i)%shift
+            instance%angle = context%motions(i)%angle
+         end associate
+      end do
+      if (n > 0) call refuse_turned_dofs(context)
+   end subroutine build_instances
+
+   !> In a part the axes turn with the instance, but dofs are along those of the scene.
+   subroutine refuse_turned_dofs(context)
+      type(build_context_t), intent(in) :: context
+      integer(ip) :: i
+
+      do i = 1, context%deck%n_cards
+         associate (card => context%deck%cards(i))
+            if (.not. abs(context%motions(card%scope)%angle) > 0.0_wp) cycle
+            if (keyword_name(card) /= 'EQUATION' .and. keyword_name(card) /= 'SPRING') cycle
+            call report_error(context%deck, card%place, 'E-PART', '*'//keyword_name(card)//' in a part, of which the instance '// &
+                              context%deck%scopes(card%scope)%name//' is turned', &
+                              expected='its place in the assembly, where dofs are along x and y', keyword='INSTANCE')
+         end associate
+      end do
+   end subroutine refuse_turned_dofs
 
 end module atrito_build_model

@@ -1,7 +1,7 @@
 !> What the items of a deck refer to: nodes and elements by their numbers or the names of their sets; and the message for what is
 !> not there.
 module atrito_references
-   use atrito_deck, only: card_t, deck_t, token_t, token_text, is_id_token, keyword_name, scope_shift, scope_text
+   use atrito_deck, only: card_t, deck_t, token_t, token_text, is_id_token, scope_shift, scope_text
    use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t, numbered_t, is_invalid, is_undetermined, has_errors, ids_text
    use atrito_element_table, only: CORNERS_OF
@@ -10,10 +10,9 @@ module atrito_references
    use atrito_kinds, only: ip
    use atrito_mesh, only: find_node, find_element
    use atrito_name_list, only: name_list_t, find_name
-   use atrito_named_nodes, only: find_named_nodes
+   use atrito_sets, only: find_named_nodes, set_list_t, find_set, members_of
    use atrito_refined_members, only: fine_elements
    use atrito_refinement, only: is_refined
-   use atrito_sets, only: set_list_t, find_set, members_of
    use atrito_strings, only: to_text, upper_case
    implicit none (type, external)
    private
@@ -23,51 +22,46 @@ module atrito_references
 contains
 
    !> The positive number of a node or element.
-   subroutine get_id(deck, token, what, id, ok, keyword)
+   subroutine get_id(deck, token, what, id, ok)
       type(deck_t), intent(in) :: deck                 !< as read; messages name its lines
       type(token_t), intent(in) :: token               !< the item; messages point at it
       character(len=*), intent(in) :: what             !< e.g. 'node number'
       integer(ip), intent(out) :: id                   !< in the model, of an instance shifted; undefined where not ok
       logical, intent(out) :: ok                       !< it is one; else that is reported
-      character(len=*), intent(in) :: keyword          !< of the card, for `atrito help KEYWORD`
       character(len=*), parameter :: POSITIVE = ', a positive integer'
       character(len=len(what) + len(POSITIVE)) :: expected   ! // would take memory for each of millions
 
       expected(:len(what)) = what
       expected(len(what) + 1:) = POSITIVE
-      call get_integer(deck, token, expected, id, ok, keyword=keyword)
+      call get_integer(deck, token, expected, id, ok)
       if (ok .and. id <= 0) then
          ok = .false.
-         call report_error(deck, token, 'E-ID', to_text(id)//' is not positive', expected=expected, keyword=keyword)
+         call report_error(deck, token, 'E-ID', to_text(id)//' is not positive', expected=expected)
       else if (ok .and. allocated(deck%scopes)) then
-         call take_scope(deck, token, what, id, ok, keyword)
+         call take_scope()
       end if
+
+   contains
+
+      !> The number in the model of a node or element of an instance, or of the assembly.
+      subroutine take_scope()
+         character(len=:), allocatable :: noun
+
+         associate (scope => deck%scopes(token%scope))
+            ok = scope%ok                                 ! if not, that is reported
+            if (.not. ok) return
+            ok = id <= scope%span
+            if (ok) then
+               id = id + scope%shift
+               return
+            end if
+         end associate
+         noun = 'node'
+         if (index(what, noun) == 0) noun = 'element'
+         call report_error(deck, token, 'E-'//upper_case(noun), noun//' '//to_text(id)//scope_text(deck, token)// &
+                           ' does not exist', expected=what//scope_text(deck, token)//scope_hint(deck, token))
+      end subroutine take_scope
    end subroutine get_id
-
-   !> The number in the model of a node or element of an instance, or of the assembly.
-   subroutine take_scope(deck, token, what, id, ok, keyword)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: token
-      character(len=*), intent(in) :: what
-      integer(ip), intent(inout) :: id
-      logical, intent(out) :: ok
-      character(len=*), intent(in) :: keyword
-      character(len=:), allocatable :: noun
-
-      associate (scope => deck%scopes(token%scope))
-         ok = scope%ok                                 ! if not, that is reported
-         if (.not. ok) return
-         ok = id <= scope%span
-         if (ok) then
-            id = id + scope%shift
-            return
-         end if
-      end associate
-      noun = 'node'
-      if (index(what, noun) == 0) noun = 'element'
-      call report_error(deck, token, 'E-'//upper_case(noun), noun//' '//to_text(id)//scope_text(deck, token)//' does not exist', &
-                        expected=what//scope_text(deck, token)//scope_hint(deck, token), keyword=keyword)
-   end subroutine take_scope
 
    !> Outside of parts a bare number is that of the assembly.
    pure function scope_hint(deck, token) result(text)
@@ -82,37 +76,35 @@ contains
    end function scope_hint
 
    !> The place of the node whose number an item is.
-   subroutine find_one_node(context, token, node, ok, keyword)
+   subroutine find_one_node(context, token, node, ok)
       type(build_context_t), intent(in) :: context     !< its mesh is searched
       type(token_t), intent(in) :: token               !< the item; messages point at it
       integer(ip), intent(out) :: node                 !< place in the mesh; 0: not ok
       logical, intent(out) :: ok                       !< there is one; else that is reported
-      character(len=*), intent(in) :: keyword          !< of the card, for `atrito help KEYWORD`
       integer(ip) :: id
 
       node = 0
-      call get_id(context%deck, token, 'node number', id, ok, keyword)
+      call get_id(context%deck, token, 'node number', id, ok)
       if (.not. ok) return
       node = find_node(context%model%mesh, id)
       ok = node > 0
-      if (.not. ok) call report_missing(context, token, context%nodes, 'node', id, context%model%mesh%n_nodes, keyword)
+      if (.not. ok) call report_missing(context, token, context%nodes, 'node', id, context%model%mesh%n_nodes)
    end subroutine find_one_node
 
    !> The place of the element whose number an item is, in the mesh of the deck.
-   subroutine find_one_element(context, token, element, ok, keyword)
+   subroutine find_one_element(context, token, element, ok)
       type(build_context_t), intent(in) :: context     !< its mesh, or that of the deck, is searched
       type(token_t), intent(in) :: token               !< the item; messages point at it
       integer(ip), intent(out) :: element              !< place in the mesh of the deck; 0: not ok
       logical, intent(out) :: ok                       !< there is one; else that is reported
-      character(len=*), intent(in) :: keyword          !< of the card, for `atrito help KEYWORD`
       integer(ip) :: id
 
       element = 0
-      call get_id(context%deck, token, 'element number', id, ok, keyword)
+      call get_id(context%deck, token, 'element number', id, ok)
       if (.not. ok) return
       element = element_of_deck(context, id)
       ok = element > 0
-      if (.not. ok) call report_missing(context, token, context%elements, 'element', id, context%model%mesh%n_elements, keyword)
+      if (.not. ok) call report_missing(context, token, context%elements, 'element', id, context%model%mesh%n_elements)
    end subroutine find_one_element
 
    !> The place of an element in the mesh of the deck by its number; 0: there is none.
@@ -128,14 +120,13 @@ contains
    end function element_of_deck
 
    !> A number that no node or element has, unless an earlier error explains it.
-   subroutine report_missing(context, token, numbered, noun, id, n, keyword)
+   subroutine report_missing(context, token, numbered, noun, id, n)
       type(build_context_t), intent(in) :: context
       type(token_t), intent(in) :: token
       type(numbered_t), intent(in) :: numbered
       character(len=*), intent(in) :: noun             !< 'node' or 'element'
       integer(ip), intent(in) :: id
       integer(ip), intent(in) :: n                     !< how many there are
-      character(len=*), intent(in) :: keyword
       character(len=:), allocatable :: makers, known
 
       if (has_errors() .and. find_id(numbered%invalid, id) > 0 .or. is_undetermined(context, noun)) return
@@ -144,62 +135,59 @@ contains
       known = ' that '//makers//' defines ('//to_text(n)//' '//noun//'s, the greatest '//to_text(numbered%greatest)//')'
       if (n == 0) known = ' that '//makers//' defines (there is none)'
       if (allocated(context%deck%scopes)) known = scope_text(context%deck, token)//scope_hint(context%deck, token)
-      call report_error(context%deck, token, 'E-'//upper_case(noun), noun//' '// &
-                        to_text(id - scope_shift(context%deck, token))//scope_text(context%deck, token)//' does not exist', &
-                        expected='the number of '//article(noun)//noun//known, keyword=keyword)
+      call report_error(context%deck, token, 'E-'//upper_case(noun), noun//' '//to_text(id - scope_shift(context%deck, token))// &
+                        scope_text(context%deck, token)//' does not exist', expected='the number of '//article(noun)//noun//known)
    end subroutine report_missing
 
    !> The places of the nodes that an item names: a number or a node set.
-   subroutine find_nodes(context, token, members, ok, keyword)
+   subroutine find_nodes(context, token, members, ok)
       type(build_context_t), intent(in) :: context        !< its mesh and sets are searched
       type(token_t), intent(in) :: token                  !< the item; messages point at it
       integer(ip), allocatable, intent(out) :: members(:) !< places in the mesh; empty where not ok
       logical, intent(out) :: ok                          !< there are such; else that is reported
-      character(len=*), intent(in) :: keyword             !< of the card, for `atrito help KEYWORD`
       character(len=:), allocatable :: name, fault
       integer(ip) :: node
 
       if (is_id_token(context%deck, token)) then
-         call find_one_node(context, token, node, ok, keyword)
+         call find_one_node(context, token, node, ok)
          members = pack([node], [ok])
          return
       end if
       members = [integer(ip) ::]
-      call get_name(context%deck, token, 'node number, or name of a set', name, ok, keyword=keyword)
+      call get_name(context%deck, token, 'node number, or name of a set', name, ok)
       if (.not. ok) return
       call find_named_nodes(context%model%mesh, context%model%node_sets, context%model%element_sets, name, members, ok, fault)
       if (allocated(fault)) then
          call report_error(context%deck, token, 'E-SET', fault, expected='a corner, or a middle with a node: of an even number '// &
-                           'of elements; *NSET, AT takes the nearest', keyword=keyword)
+                           'of elements; *NSET, AT takes the nearest')
       else if (.not. ok) then
-         call report_unknown(context, token, 'node set', 'E-SET', context%model%node_sets%names, keyword)
+         call report_unknown(context, token, 'node set', 'E-SET', context%model%node_sets%names)
       end if
    end subroutine find_nodes
 
    !> The places of the elements that an item names: a number or an element set.
-   subroutine find_elements(context, token, members, ok, keyword)
+   subroutine find_elements(context, token, members, ok)
       type(build_context_t), intent(in) :: context        !< its mesh and sets are searched
       type(token_t), intent(in) :: token                  !< the item; messages point at it
       integer(ip), allocatable, intent(out) :: members(:) !< places in the mesh as it is solved; empty where not ok
       logical, intent(out) :: ok                          !< there are such; else that is reported
-      character(len=*), intent(in) :: keyword             !< of the card, for `atrito help KEYWORD`
       character(len=:), allocatable :: name
       integer(ip) :: i
 
       members = [integer(ip) ::]
       if (is_id_token(context%deck, token)) then
-         call find_one_element(context, token, i, ok, keyword)
+         call find_one_element(context, token, i, ok)
          members = pack([i], [ok])
          if (is_refined(context%refinement)) members = fine_elements(context%refinement, members)
          return
       end if
-      call get_name(context%deck, token, 'element number, or name of a set', name, ok, keyword=keyword)
+      call get_name(context%deck, token, 'element number, or name of a set', name, ok)
       if (.not. ok) return
       associate (sets => context%model%element_sets)
          i = find_set(sets, name)
          ok = i > 0
          if (ok) members = members_of(sets%sets(i))
-         if (.not. ok) call report_unknown(context, token, 'element set', 'E-SET', sets%names, keyword)
+         if (.not. ok) call report_unknown(context, token, 'element set', 'E-SET', sets%names)
       end associate
    end subroutine find_elements
 
@@ -220,17 +208,16 @@ contains
       call option_text(context%deck, card, option, name, found, place)
       if (found) set = find_set(sets, name)
       ok = set > 0 .or. .not. found
-      if (.not. ok) call report_unknown(context, place, noun, 'E-SET', sets%names, keyword_name(card))
+      if (.not. ok) call report_unknown(context, place, noun, 'E-SET', sets%names)
    end subroutine find_set_option
 
    !> An unknown name, unless an earlier error explains it.
-   subroutine report_unknown(context, token, noun, id, known, keyword)
+   subroutine report_unknown(context, token, noun, id, known)
       type(build_context_t), intent(in) :: context
       type(token_t), intent(in) :: token
       character(len=*), intent(in) :: noun             !< what should have this name, e.g. 'element set'
       character(len=*), intent(in) :: id
       type(name_list_t), intent(in) :: known           !< names of these that there are
-      character(len=*), intent(in) :: keyword
       character(len=:), allocatable :: expected
 
       if (is_invalid(context, token_text(context%deck, token)) .or. is_undetermined(context, noun)) return
@@ -243,26 +230,24 @@ contains
          end if
       end if
       call report_error(context%deck, token, id, 'unknown '//noun//' '//token_text(context%deck, token), expected=expected, &
-                        among=known, keyword=keyword)
+                        among=known)
    end subroutine report_unknown
 
    !> The surface of a name that an item has; one that nobody defines is reported.
-   subroutine find_surface(context, token, surface, keyword)
+   subroutine find_surface(context, token, surface)
       type(build_context_t), intent(in) :: context     !< names of its surfaces are searched
       type(token_t), intent(in) :: token               !< the item
       integer(ip), intent(out) :: surface              !< place among the surfaces of the model; 0: there is none
-      character(len=*), intent(in) :: keyword          !< of the card, for `atrito help KEYWORD`
 
       surface = find_name(context%surface_names, token_text(context%deck, token))
-      if (surface == 0) call report_unknown(context, token, 'surface', 'E-SURFACE', context%surface_names, keyword)
+      if (surface == 0) call report_unknown(context, token, 'surface', 'E-SURFACE', context%surface_names)
    end subroutine find_surface
 
    !> Elements have a face of this number: triangles have no fourth. Of a refined mesh that has been asked of the deck's.
-   subroutine check_faces(context, token, elements, face, keyword, ok)
+   subroutine check_faces(context, token, elements, face, ok)
       type(build_context_t), intent(in) :: context
       type(token_t), intent(in) :: token               !< S1..S4 or P1..P4
       integer(ip), intent(in) :: elements(:), face
-      character(len=*), intent(in) :: keyword
       logical, intent(out) :: ok
       integer(ip), allocatable :: without(:)
 
@@ -272,7 +257,7 @@ contains
       ok = size(without) == 0
       if (ok) return
       call report_error(context%deck, token, 'E-FACE', 'element '//ids_text(without)//' has no face '//to_text(face), &
-                        expected='a face that each of the elements has: triangles have 1-2, 2-3 and 3-1', keyword=keyword)
+                        expected='a face that each of the elements has: triangles have 1-2, 2-3 and 3-1')
    end subroutine check_faces
 
    !> The nodes of a list that belong to no element.

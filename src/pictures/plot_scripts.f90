@@ -11,7 +11,7 @@ module atrito_plot_scripts
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: string_t, to_text
    use atrito_table, only: CSV_ENDING
-   use atrito_units, only: name_units, units_t
+   use atrito_model, only: name_units, units_t
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
    implicit none (type, external)
    private

@@ -3,7 +3,7 @@ module atrito_report
    use atrito_html, only: fact_t
    use atrito_page, only: page_t
    use atrito_strings, only: string_t
-   use atrito_units, only: units_t
+   use atrito_model, only: units_t
    implicit none (type, external)
    private
    public :: report_t, page_section_t, begin_section, add_section

@@ -14,7 +14,7 @@ module atrito_write_report
    use atrito_report_sections, only: contents_t, read_contents, add_numbers, add_results, add_messages, add_sources
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: to_text
-   use atrito_units, only: name_units, units_t
+   use atrito_model, only: name_units, units_t
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
    implicit none (type, external)
    private

@@ -11,7 +11,7 @@
 !> In a body of revolution the hoop stress pulls, too: over an element its mean counts, as a load along the radius.
 module atrito_section_forces
    use atrito_assembly, only: stiffness_cache_t, cached_stiffness
-   use atrito_cross_section, only: cross_section_t
+   use atrito_crossings, only: cross_section_t
    use atrito_element_table, only: MOST_NODES
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: is_revolved

@@ -7,7 +7,7 @@ module atrito_grid
    use atrito_strings, only: append_string, string_t, to_text
    use atrito_table, only: table_t, KIND_INTEGER, KIND_REAL, KIND_WORD
    use atrito_table_text, only: fetch_integers, fetch_reals
-   use atrito_units, only: name_units
+   use atrito_model, only: name_units
    implicit none (type, external)
    private
    public :: grid_t, begin_grid, add_row, put_grid, put_table, CELL, add_matrix

@@ -14,7 +14,7 @@ module atrito_listing
    use atrito_frame_tables, only: build_frame_table, has_frame_rows
    use atrito_grid, only: grid_t, begin_grid, add_row, put_grid, put_table, CELL
    use atrito_increments, only: has_history, increment_name, ending_text
-   use atrito_model, only: model_t
+   use atrito_model, only: model_t, name_units
    use atrito_results, only: results_t, history_t, balance_t, error_bound_t, last_frame, view_frame
    use atrito_page, only: page_t, begin_page, add_line, add_blank, add_rule, add_heading, add_entry, add_paragraph, left, right, &
                           number, bytes
@@ -28,7 +28,6 @@ module atrito_listing
                              pair_count, pair_name
    use atrito_patched_text, only: take_ends
    use atrito_table, only: table_t, clear_small, ZERO_SHARE
-   use atrito_units, only: name_units
    use atrito_utf8, only: visible
    implicit none (type, external)
    private

@@ -1,6 +1,6 @@
 !> Resultants of what acts upon a model.
 module atrito_load_resultants
-   use atrito_amplitudes, only: factor_at, time_before
+   use atrito_step_loads, only: factor_at, time_before
    use atrito_element, only: body_load, pressure_load
    use atrito_element_table, only: MOST_NODES
    use atrito_face_loads, only: traction_load, hydrostatic_load

@@ -9,12 +9,11 @@ module atrito_model_report
    use atrito_rigid_report, only: describe_references
    use atrito_table, only: clear_small
    use atrito_strings, only: to_text
-   use atrito_units, only: unit_names
+   use atrito_model, only: unit_names, model_t, step_t, requested_t, increments_t, interaction_t, FORMULATION_NAME, FRICTION_NAME, &
+                           KERNEL_NAME, FRICTION_NONE, FRICTION_NONLOCAL, LOAD_TRACTION, SURFACE_SEGMENTS
    use atrito_mesh, only: is_revolved
    use atrito_orthotropy, only: SPATIAL, inverse_of
    use atrito_sets, only: set_count
-   use atrito_model, only: model_t, step_t, requested_t, increments_t, interaction_t, FORMULATION_NAME, FRICTION_NAME, &
-                           KERNEL_NAME, FRICTION_NONE, FRICTION_NONLOCAL, LOAD_TRACTION, SURFACE_SEGMENTS
    use atrito_page, only: page_t, add_line, add_blank, add_entry, number, plural
    implicit none (type, external)
    private

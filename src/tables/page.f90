@@ -5,7 +5,7 @@ module atrito_page
    use atrito_strings, only: string_t, break_line, join, to_text
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
    use atrito_system, only: hide_line
-   use atrito_units, only: name_units, units_t
+   use atrito_model, only: name_units, units_t
    use atrito_utf8, only: visible
    implicit none (type, external)
    private

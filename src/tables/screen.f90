@@ -6,7 +6,7 @@ module atrito_screen
    use atrito_messages, only: count_messages, SEVERITY_WARNING, SEVERITY_NOTE
    use atrito_system, only: peak_memory
    use atrito_timers, only: phase_time_t, get_phases
-   use atrito_model, only: model_t
+   use atrito_model, only: model_t, in_units
    use atrito_results, only: contact_result_t, results_t, history_t, observed_t, quantity_bound_t, scene_t, has_forces, last_frame
    use atrito_increments, only: list_increments, has_history, increment_name, ending_text
    use atrito_extreme_report, only: add_extremes
@@ -20,7 +20,6 @@ module atrito_screen
    use atrito_summary, only: bound_text, error_text, large_text, pair_summary_t, summarise_pair, states_text, closed_word, &
                              body_count, pair_count, pair_name, uniqueness_text
    use atrito_table, only: TAB_ENDING, CSV_ENDING
-   use atrito_units, only: in_units
    implicit none (type, external)
    private
    public :: compose_summary, compose_check

@@ -9,9 +9,8 @@ module fuzz_checks
                               SEVERITY_NOTE
    use atrito_mesh, only: signed_area
    use atrito_model, only: model_t
-   use atrito_ranges, only: numbers_in
+   use atrito_sets, only: numbers_in, set_list_t, set_count
    use atrito_results, only: results_t
-   use atrito_sets, only: set_list_t, set_count
    use atrito_status, only: status_t, is_ok, STATUS_DECK, STATUS_NOT_CONVERGED, STATUS_SINGULAR
    use atrito_strings, only: string_t, to_text
    implicit none (type, external)

@@ -92,51 +92,48 @@ contains
             end do
          end associate
       end do
-      if (present(bounds)) call find_bounds(model, bounds, observations, is_ok, error)
-   end subroutine read_observations
+      if (present(bounds)) call find_bounds()
 
-   !> The quantities of --bound: observed ones by their names. What is wrong is a matter of the command line.
-   subroutine find_bounds(model, bounds, observations, is_ok, error)
-      type(model_t), intent(in) :: model
-      type(string_t), intent(in) :: bounds(:)
-      type(observations_t), intent(inout) :: observations
-      logical, intent(inout) :: is_ok
-      type(message_t), intent(inout) :: error
-      type(string_t), allocatable :: observed(:)
-      integer :: b, i
+   contains
 
-      if (size(bounds) == 0) return
-      allocate (observed(0))
-      do i = 1, size(observations%list)
-         call append_string(observed, observations%list(i)%name)
-      end do
-      allocate (observations%quantities(size(bounds)))
-      do b = 1, size(bounds)
-         do i = 1, size(observed)
-            if (same_name(observed(i)%s, bounds(b)%s)) exit
+      !> The quantities of --bound: observed ones by their names. What is wrong is a matter of the command line.
+      subroutine find_bounds()
+         type(string_t), allocatable :: observed(:)
+         integer :: b, i
+
+         if (size(bounds) == 0) return
+         allocate (observed(0))
+         do i = 1, size(observations%list)
+            call append_string(observed, observations%list(i)%name)
          end do
-         if (i > size(observed) .and. same_name(bounds(b)%s, POTENTIAL_ENERGY)) then
-            observations%quantities(b)%name = POTENTIAL_ENERGY
-            allocate (observations%quantities(b)%parts(0))
-         else if (i > size(observed)) then
-            error%text = 'nothing of this name is observed'
-            error%expected = 'the name of a quantity of --observe or *OBSERVE, or '//POTENTIAL_ENERGY
-            error%nearest = nearest_names(bounds(b)%s, observed, MOST_NEAREST)
-         else
-            observations%quantities(b)%name = observed(i)%s
-            call find_bound(model, observations, i, observed, observations%quantities(b), error)
-         end if
-         is_ok = .not. allocated(error%text)
-         if (is_ok) cycle
-         error%severity = SEVERITY_ERROR
-         error%id = 'E-OBSERVE'
-         error%file = 'atrito'
-         error%text = '--bound '//bounds(b)%s//': '//error%text
-         if (error%column > 0) error%text = error%text//', column '//to_text(error%column)
-         if (error%column > 0) error%source = observations%list(i)%text
-         return
-      end do
-   end subroutine find_bounds
+         allocate (observations%quantities(size(bounds)))
+         do b = 1, size(bounds)
+            do i = 1, size(observed)
+               if (same_name(observed(i)%s, bounds(b)%s)) exit
+            end do
+            if (i > size(observed) .and. same_name(bounds(b)%s, POTENTIAL_ENERGY)) then
+               observations%quantities(b)%name = POTENTIAL_ENERGY
+               allocate (observations%quantities(b)%parts(0))
+            else if (i > size(observed)) then
+               error%text = 'nothing of this name is observed'
+               error%expected = 'the name of a quantity of --observe or *OBSERVE, or '//POTENTIAL_ENERGY
+               error%nearest = nearest_names(bounds(b)%s, observed, MOST_NEAREST)
+            else
+               observations%quantities(b)%name = observed(i)%s
+               call find_bound(model, observations, i, observed, observations%quantities(b), error)
+            end if
+            is_ok = .not. allocated(error%text)
+            if (is_ok) cycle
+            error%severity = SEVERITY_ERROR
+            error%id = 'E-OBSERVE'
+            error%file = 'atrito'
+            error%text = '--bound '//bounds(b)%s//': '//error%text
+            if (error%column > 0) error%text = error%text//', column '//to_text(error%column)
+            if (error%column > 0) error%source = observations%list(i)%text
+            return
+         end do
+      end subroutine find_bounds
+   end subroutine read_observations
 
    !> The i-th one as a linear quantity. error%text: it is none, or its columns have no names.
    subroutine find_bound(model, observations, i, observed, quantity, error)
@@ -278,7 +275,8 @@ contains
          error%line = one%line%line
          error%source = one%line%text
          error%skipped = one%line%column - 1
-         error%column = error%column + one%line%column - 1 + index(one%line%text, '=')
+         error%column = error%column + index(one%line%text, '=')          ! 0: the line has neither a place nor an =
+         if (error%column > 0) error%column = error%column + one%line%column - 1
          error%keyword = 'OBSERVE'
       else if (error%column > 0) then
          error%text = error%text//', column '//to_text(error%column)
@@ -327,7 +325,7 @@ contains
       allocate (found(n + 2*n_bounds))
       do i = 1, n
          found(i)%name = self%list(i)%name
-         call evaluate(self, i, results, rows, strain, found(i)%value)
+         call evaluate(found(i)%value)
       end do
       do i = 1, n_bounds
          associate (least => found(n + 2*i - 1), largest => found(n + 2*i))
@@ -340,35 +338,32 @@ contains
          end associate
       end do
       call move_alloc(found, results%observed)
-   end subroutine evaluate_all
 
-   !> nan where a quantity is not defined, or the arithmetic has no result, which is told the first time.
-   subroutine evaluate(self, i, results, rows, strain, value)
-      class(observations_t), intent(inout) :: self
-      integer, intent(in) :: i                       !< which one
-      type(results_t), intent(in) :: results
-      type(history_row_t), intent(in) :: rows(:)
-      real(wp), allocatable, intent(in) :: strain(:, :) !< at the nodes, where one is asked for
-      real(wp), intent(out) :: value
-      type(expression_fault_t) :: fault
-      real(wp) :: amounts(size(self%list(i)%terms))
-      integer :: k
+   contains
 
-      value = ieee_value(1.0_wp, ieee_quiet_nan)
-      associate (one => self%list(i))
-         do k = 1, size(amounts)
-            amounts(k) = value_of_term(one%terms(k), results, rows, strain)
-         end do
-         if (any(is_nan(amounts))) return
-         call evaluate_expression(one%text, self%names, self%values, value, fault, self%has_own_degree, one%calls, amounts)
-         if (.not. allocated(fault%text)) return
+      !> nan where a quantity is not defined, or the arithmetic has no result, which is told the first time.
+      subroutine evaluate(value)
+         real(wp), intent(out) :: value
+         type(expression_fault_t) :: fault
+         real(wp) :: amounts(size(self%list(i)%terms))
+         integer :: k
+
          value = ieee_value(1.0_wp, ieee_quiet_nan)
-         if (one%has_warned) return
-         one%has_warned = .true.
-         call add_warning('W-OBSERVE', label_of(one)//' is nan in step '//to_text(results%step)//', increment ' &
-                          //to_text(results%increment)//': '//fault%text//', column '//to_text(int(fault%first, ip))// &
-                          ' of '//one%text)
-      end associate
-   end subroutine evaluate
+         associate (one => self%list(i))
+            do k = 1, size(amounts)
+               amounts(k) = value_of_term(one%terms(k), results, rows, strain)
+            end do
+            if (any(is_nan(amounts))) return
+            call evaluate_expression(one%text, self%names, self%values, value, fault, self%has_own_degree, one%calls, amounts)
+            if (.not. allocated(fault%text)) return
+            value = ieee_value(1.0_wp, ieee_quiet_nan)
+            if (one%has_warned) return
+            one%has_warned = .true.
+            call add_warning('W-OBSERVE', label_of(one)//' is nan in step '//to_text(results%step)//', increment ' &
+                             //to_text(results%increment)//': '//fault%text//', column '//to_text(int(fault%first, ip))// &
+                             ' of '//one%text)
+         end associate
+      end subroutine evaluate
+   end subroutine evaluate_all
 
 end module atrito_observations

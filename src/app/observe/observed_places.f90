@@ -12,9 +12,8 @@ module atrito_observed_places
    use atrito_messages, only: message_t
    use atrito_model, only: model_t, nodal_values_t, SURFACE_ELEMENTS
    use atrito_name_list, only: names_of
-   use atrito_named_nodes, only: find_named_nodes
+   use atrito_sets, only: find_named_nodes, find_set, members_of
    use atrito_numbers, only: read_integer, NUMBER_OK
-   use atrito_sets, only: find_set, members_of
    use atrito_strings, only: string_t, append_string, same_name, to_text
    implicit none (type, external)
    private
@@ -37,14 +36,14 @@ contains
       logical, allocatable :: is_there(:)
       integer(ip) :: i, surface, elements
 
-      call find_numbered(model, argument%text, nodes, fault)
+      call find_numbered(argument%text, nodes)
       if (.not. (allocated(nodes) .or. allocated(fault%text))) then
          surface = index_of_surface(model, argument%text)
          elements = find_set(model%element_sets, argument%text)
          allocate (of_node(model%mesh%n_nodes), source=0.0_wp)
          allocate (is_there(model%mesh%n_nodes), source=.false.)
          if (surface > 0) then
-            call weigh_faces(model, surface, of_node, is_there, fault)
+            call weigh_faces(of_node, is_there)
          else if (elements > 0) then
             call weigh_elements(model, members_of(model%element_sets%sets(elements)), of_node, is_there)
          else
@@ -56,6 +55,59 @@ contains
       else if (allocated(nodes)) then
          weights = [1.0_wp]
       end if
+
+   contains
+
+      !> `12`, or `LEFT.12` of an instance. nodes is not allocated where it is no number.
+      subroutine find_numbered(text, nodes)
+         character(len=*), intent(in) :: text
+         integer(ip), allocatable, intent(out) :: nodes(:)
+         integer(ip) :: id, first, next
+         integer :: dot, outcome
+
+         dot = index(text, '.', back=.true.)
+         if (dot == len(text) .or. verify(text(dot + 1:), DIGITS) > 0) return
+         call read_integer(text(dot + 1:), id, outcome)
+         first = 1
+         next = huge(1_ip)
+         if (dot > 0) then
+            call find_instance(model, text(:dot - 1), first, next)
+            if (first == 0) return
+         end if
+         if (outcome == NUMBER_OK .and. id < next - first + 1) then
+            nodes = pack([find_node(model%mesh, first - 1 + id)], [find_node(model%mesh, first - 1 + id) > 0])
+            if (size(nodes) == 1) return
+            deallocate (nodes)
+         end if
+         fault%text = 'node '//text//' does not exist'
+         fault%expected = A_PLACE//' ('//to_text(model%mesh%n_nodes)//' nodes, the greatest ' &
+                          //to_text(maxval(model%mesh%node_id(:model%mesh%n_nodes)))//')'
+      end subroutine find_numbered
+
+      !> Each node by the integral of its shape function over the faces, the depth included.
+      subroutine weigh_faces(of_node, is_there)
+         real(wp), intent(inout) :: of_node(:)
+         logical, intent(inout) :: is_there(:)
+         integer(ip), allocatable :: nodes(:)
+         real(wp) :: f(2, 3)
+         integer(ip) :: i, e
+
+         if (model%surfaces(surface)%kind /= SURFACE_ELEMENTS) then
+            fault%text = model%surfaces(surface)%name//' is a rigid surface and has no nodes'
+            fault%expected = A_PLACE
+            return
+         end if
+         associate (faces => model%surfaces(surface)%faces, mesh => model%mesh)
+            do i = 1, faces%n
+               e = faces%element(i)
+               nodes = face_nodes(mesh, e, faces%face(i))
+               call traction_load(mesh%x(:, nodes), [1.0_wp, 0.0_wp], model%sections(model%section_of(e))%thickness, &
+                                  mesh%state(e), f(:, :size(nodes)), depth_places(mesh, mesh%state(e), nodes))
+               of_node(nodes) = of_node(nodes) + f(1, :size(nodes))
+               is_there(nodes) = .true.
+            end do
+         end associate
+      end subroutine weigh_faces
    end subroutine find_place
 
    !> The nodes of the element that holds a point, and its shape functions there.
@@ -72,7 +124,7 @@ contains
       integer(ip) :: i, near
       real(wp) :: distance
 
-      call choose_elements(model, body, wanted, fault)
+      call choose_elements(body)
       if (allocated(fault%text)) return
       call find_places(model%mesh, wanted, reshape(x, [2, 1]), places)
       text = '('//to_text(x(1), DIGITS_TOLD)//', '//to_text(x(2), DIGITS_TOLD)//')'
@@ -80,12 +132,12 @@ contains
          call find_nearest(model%mesh, wanted, x, near, distance)
          fault%text = text//' is outside of all bodies'
          if (len(body) > 0) fault%text = text//' is outside of '//body
-         if (near > 0) fault%text = fault%text//', '//to_text(distance, 3)//' from '//body_name(model, near)
+         if (near > 0) fault%text = fault%text//', '//to_text(distance, 3)//' from '//body_name(near)
          fault%expected = 'a place x, y in a body [L]'
       else if (size(places) > 1) then
-         fault%text = text//' is in '//body_name(model, places(1)%element)
+         fault%text = text//' is in '//body_name(places(1)%element)
          do i = 2, size(places, kind=ip)
-            fault%text = fault%text//' and in '//body_name(model, places(i)%element)
+            fault%text = fault%text//' and in '//body_name(places(i)%element)
          end do
          fault%expected = 'x, y and the element set or instance that is meant'
       else
@@ -94,43 +146,42 @@ contains
             weights = places(1)%value(:n)
          end associate
       end if
+
+   contains
+
+      !> The elements of an element set or an instance.
+      subroutine choose_elements(name)
+         character(len=*), intent(in) :: name           !< '': all
+         integer(ip) :: set, first, next
+
+         wanted = len(name) == 0
+         if (len(name) == 0) return
+         set = find_set(model%element_sets, name)
+         if (set > 0) then
+            wanted(members_of(model%element_sets%sets(set))) = .true.
+            return
+         end if
+         call find_instance(model, name, first, next)
+         if (first > 0) then
+            wanted = model%mesh%element_id(:model%mesh%n_elements) >= first .and. &
+                     model%mesh%element_id(:model%mesh%n_elements) < next
+            return
+         end if
+         fault%text = 'the deck has no element set or instance '//name
+         fault%expected = 'the name of one that holds the place'
+         fault%known = names_of(model%element_sets%names)
+      end subroutine choose_elements
+
+      function body_name(element) result(name)
+         integer(ip), intent(in) :: element
+         character(len=:), allocatable :: name
+         type(bodies_t) :: bodies
+
+         call find_bodies(model%mesh, bodies)
+         call name_bodies(model, bodies)
+         name = bodies%list(bodies%of_element(element))%name
+      end function body_name
    end subroutine find_point
-
-   !> The elements of an element set or an instance.
-   subroutine choose_elements(model, name, wanted, fault)
-      type(model_t), intent(in) :: model
-      character(len=*), intent(in) :: name           !< '': all
-      logical, intent(out) :: wanted(:)
-      type(message_t), intent(inout) :: fault
-      integer(ip) :: set, first, next
-
-      wanted = len(name) == 0
-      if (len(name) == 0) return
-      set = find_set(model%element_sets, name)
-      if (set > 0) then
-         wanted(members_of(model%element_sets%sets(set))) = .true.
-         return
-      end if
-      call find_instance(model, name, first, next)
-      if (first > 0) then
-         wanted = model%mesh%element_id(:model%mesh%n_elements) >= first .and. model%mesh%element_id(:model%mesh%n_elements) < next
-         return
-      end if
-      fault%text = 'the deck has no element set or instance '//name
-      fault%expected = 'the name of one that holds the place'
-      fault%known = names_of(model%element_sets%names)
-   end subroutine choose_elements
-
-   function body_name(model, element) result(name)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: element
-      character(len=:), allocatable :: name
-      type(bodies_t) :: bodies
-
-      call find_bodies(model%mesh, bodies)
-      call name_bodies(model, bodies)
-      name = bodies%list(bodies%of_element(element))%name
-   end function body_name
 
    !> The numbers of an instance: from first on, before next. first is 0 where there is no such instance.
    pure subroutine find_instance(model, name, first, next)
@@ -148,34 +199,6 @@ contains
       if (first > 0) next = minval([huge(1_ip), model%instances%first_number], [.true., model%instances%first_number > first])
    end subroutine find_instance
 
-   !> `12`, or `LEFT.12` of an instance. nodes is not allocated where it is no number.
-   subroutine find_numbered(model, text, nodes, fault)
-      type(model_t), intent(in) :: model
-      character(len=*), intent(in) :: text
-      integer(ip), allocatable, intent(out) :: nodes(:)
-      type(message_t), intent(inout) :: fault
-      integer(ip) :: id, first, next
-      integer :: dot, outcome
-
-      dot = index(text, '.', back=.true.)
-      if (dot == len(text) .or. verify(text(dot + 1:), DIGITS) > 0) return
-      call read_integer(text(dot + 1:), id, outcome)
-      first = 1
-      next = huge(1_ip)
-      if (dot > 0) then
-         call find_instance(model, text(:dot - 1), first, next)
-         if (first == 0) return
-      end if
-      if (outcome == NUMBER_OK .and. id < next - first + 1) then
-         nodes = pack([find_node(model%mesh, first - 1 + id)], [find_node(model%mesh, first - 1 + id) > 0])
-         if (size(nodes) == 1) return
-         deallocate (nodes)
-      end if
-      fault%text = 'node '//text//' does not exist'
-      fault%expected = A_PLACE//' ('//to_text(model%mesh%n_nodes)//' nodes, the greatest ' &
-                       //to_text(maxval(model%mesh%node_id(:model%mesh%n_nodes)))//')'
-   end subroutine find_numbered
-
    !> The place of a surface among those of the model; 0: there is none of the name.
    pure integer(ip) function index_of_surface(model, name) result(i)
       type(model_t), intent(in) :: model
@@ -186,34 +209,6 @@ contains
       end do
       i = 0
    end function index_of_surface
-
-   !> Each node by the integral of its shape function over the faces, the depth included.
-   subroutine weigh_faces(model, surface, of_node, is_there, fault)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: surface
-      real(wp), intent(inout) :: of_node(:)
-      logical, intent(inout) :: is_there(:)
-      type(message_t), intent(inout) :: fault
-      integer(ip), allocatable :: nodes(:)
-      real(wp) :: f(2, 3)
-      integer(ip) :: i, e
-
-      if (model%surfaces(surface)%kind /= SURFACE_ELEMENTS) then
-         fault%text = model%surfaces(surface)%name//' is a rigid surface and has no nodes'
-         fault%expected = A_PLACE
-         return
-      end if
-      associate (faces => model%surfaces(surface)%faces, mesh => model%mesh)
-         do i = 1, faces%n
-            e = faces%element(i)
-            nodes = face_nodes(mesh, e, faces%face(i))
-            call traction_load(mesh%x(:, nodes), [1.0_wp, 0.0_wp], model%sections(model%section_of(e))%thickness, mesh%state(e), &
-                               f(:, :size(nodes)), depth_places(mesh, mesh%state(e), nodes))
-            of_node(nodes) = of_node(nodes) + f(1, :size(nodes))
-            is_there(nodes) = .true.
-         end do
-      end associate
-   end subroutine weigh_faces
 
    !> The same over elements.
    subroutine weigh_elements(model, elements, of_node, is_there)

@@ -6,8 +6,8 @@ module atrito_observed_quantities
    use atrito_linear_quantity, only: linear_part_t, linear_quantity_t, PART_FACES, PART_PAIR, PART_REACTION, PART_STRESS, &
                                      PART_VOLUME
    use atrito_messages, only: message_t
-   use atrito_model, only: model_t, SURFACE_ELEMENTS
-   use atrito_observed_arguments, only: put_place
+   use atrito_model, only: model_t
+   use atrito_observed_names, only: put_place
    use atrito_observed_places, only: index_of_surface
    use atrito_observed_terms, only: pair_quantity_list, term_t, NODAL_FIELDS, POINT_FIELDS, TAKE_LARGEST, TAKE_LEAST, TAKE_MEAN, &
                                     TAKE_SUM, TERM_NODES, TERM_PAIR, TERM_POINTS
@@ -106,7 +106,7 @@ contains
       part%factor = 1.0_wp
       select case (term%kind)
       case (TERM_NODES)
-         call find_part_of_nodes(model, call, term, part, fault)
+         call find_part_of_nodes()
       case (TERM_PAIR)
          list = pair_quantity_list()
          part%kind = PART_PAIR
@@ -125,51 +125,48 @@ contains
       fault%expected = CAN_BE_BOUND
       fault%column = int(call%first, ip)
       fault%length = int(call%last - call%first + 1, ip)
+
+   contains
+
+      !> Means of displacements and of stresses, sums of reactions.
+      subroutine find_part_of_nodes()
+         character(len=:), allocatable :: field
+         integer(ip) :: surface, elements
+
+         field = trim(NODAL_FIELDS(term%field))
+         surface = 0
+         elements = 0
+         if (term%take == TAKE_MEAN) then
+            surface = index_of_surface(model, call%arguments(2)%text)
+            if (surface == 0) elements = find_set(model%element_sets, call%arguments(2)%text)
+            if (surface > 0) part%element = model%surfaces(surface)%faces%element(:model%surfaces(surface)%faces%n)
+            if (surface > 0) part%face = model%surfaces(surface)%faces%face(:model%surfaces(surface)%faces%n)
+            if (elements > 0) part%element = members_of(model%element_sets%sets(elements))
+         end if
+         select case (field)
+         case ('u1', 'u2')
+            part%component = merge(1, 2, field == 'u1')
+            part%kind = merge(PART_FACES, PART_VOLUME, surface > 0)
+         case ('s11', 's22', 's12')
+            part%component = findloc(['s11', 's22', 's12'] == field, .true., dim=1)
+            part%kind = PART_STRESS
+            surface = 0                                 ! stresses along a line are no better than at a point
+         case ('rf1', 'rf2')
+            if (term%take /= TAKE_SUM) return
+            part%component = merge(1, 2, field == 'rf1')
+            part%kind = PART_REACTION
+            part%node = term%nodes
+            return
+         case default
+            return
+         end select
+         if (any(term%take == [TAKE_LEAST, TAKE_LARGEST])) part%component = 0
+         if (surface > 0 .or. elements > 0 .or. part%component == 0) return
+         fault%text = field//' at points has no bound: the energy of a force at a point is infinite'
+         fault%expected = 'mean('//field//', ELSET) over an element set'
+         if (part%kind /= PART_STRESS) fault%expected = fault%expected//', or mean('//field//', SURFACE) over a surface'
+         call put_place(call%arguments(size(call%arguments)), fault)
+      end subroutine find_part_of_nodes
    end subroutine find_part
-
-   !> Means of displacements and of stresses, sums of reactions.
-   subroutine find_part_of_nodes(model, call, term, part, fault)
-      type(model_t), intent(in) :: model
-      type(call_t), intent(in) :: call
-      type(term_t), intent(in) :: term
-      type(linear_part_t), intent(inout) :: part
-      type(message_t), intent(inout) :: fault
-      character(len=:), allocatable :: field
-      integer(ip) :: surface, elements
-
-      field = trim(NODAL_FIELDS(term%field))
-      surface = 0
-      elements = 0
-      if (term%take == TAKE_MEAN) then
-         surface = index_of_surface(model, call%arguments(2)%text)
-         if (surface == 0) elements = find_set(model%element_sets, call%arguments(2)%text)
-         if (surface > 0) part%element = model%surfaces(surface)%faces%element(:model%surfaces(surface)%faces%n)
-         if (surface > 0) part%face = model%surfaces(surface)%faces%face(:model%surfaces(surface)%faces%n)
-         if (elements > 0) part%element = members_of(model%element_sets%sets(elements))
-      end if
-      select case (field)
-      case ('u1', 'u2')
-         part%component = merge(1, 2, field == 'u1')
-         part%kind = merge(PART_FACES, PART_VOLUME, surface > 0)
-      case ('s11', 's22', 's12')
-         part%component = findloc(['s11', 's22', 's12'] == field, .true., dim=1)
-         part%kind = PART_STRESS
-         surface = 0                                 ! stresses along a line are no better than at a point
-      case ('rf1', 'rf2')
-         if (term%take /= TAKE_SUM) return
-         part%component = merge(1, 2, field == 'rf1')
-         part%kind = PART_REACTION
-         part%node = term%nodes
-         return
-      case default
-         return
-      end select
-      if (any(term%take == [TAKE_LEAST, TAKE_LARGEST])) part%component = 0
-      if (surface > 0 .or. elements > 0 .or. part%component == 0) return
-      fault%text = field//' at points has no bound: the energy of a force at a point is infinite'
-      fault%expected = 'mean('//field//', ELSET) over an element set'
-      if (part%kind /= PART_STRESS) fault%expected = fault%expected//', or mean('//field//', SURFACE) over a surface'
-      call put_place(call%arguments(size(call%arguments)), fault)
-   end subroutine find_part_of_nodes
 
 end module atrito_observed_quantities

@@ -56,7 +56,7 @@ contains
 
       select case (term%kind)
       case (TERM_NODES)
-         value = taken(nodal_values(term, results, strain), term%weights, term%take)
+         value = taken(nodal_values(), term%weights, term%take)
       case (TERM_POINTS)
          associate (contact => results%contact(term%pair))
             value = taken(point_values(term%field, contact), contact%weight(:contact%n)/sum(contact%weight(:contact%n)), term%take)
@@ -65,12 +65,65 @@ contains
          list = pair_quantities(summarise_pair(results%contact(term%pair)), scales_t())
          value = list(term%field)%value
       case (TERM_ZONE)
-         value = zone_value(term, results%contact(term%pair), rows)
+         value = zone_value(results%contact(term%pair))
       case (TERM_STEP)
          value = step_value(term%field, results)
       case default
          value = results%time
       end select
+
+   contains
+
+      !> One of ZONE_FIELDS. Without contact an extent is 0, and nothing else is defined.
+      pure real(wp) function zone_value(contact) result(value)
+         type(contact_result_t), intent(in) :: contact
+         character(len=:), allocatable :: name
+         real(wp) :: ends(2)
+
+         name = trim(ZONE_FIELDS(term%field))
+         ends = contact_zone(contact)
+         if (name(:6) == 'stick_') ends = stick_zone(contact, term%nu)
+         select case (name(index(name, '_') + 1:))
+         case ('start')
+            value = ends(1)
+         case ('end')
+            value = ends(2)
+         case ('centre')
+            value = 0.5_wp*(ends(1) + ends(2))
+         case ('time')
+            value = time_of_change(rows, term%pair, name == 'closing_time')
+         case default
+            value = 0.0_wp
+            if (.not. any(is_nan(ends))) value = ends(2) - ends(1)
+            if (index(name, 'half') > 0) value = 0.5_wp*value
+         end select
+      end function zone_value
+
+      pure function nodal_values() result(values)
+         real(wp) :: values(merge(1, size(term%nodes), term%is_place))
+         type(place_values_t) :: at
+         integer(ip) :: i
+         integer :: k
+
+         if (term%field >= FIRST_FORCE) then
+            values = results%reaction(term%field - FIRST_FORCE + 1, term%nodes)
+            return
+         end if
+         do k = 1, size(values)
+            if (allocated(term%arm)) at%arm = term%arm(:, k)
+            i = term%nodes(k)
+            if (term%is_place) then
+               at%u = matmul(results%u(:, term%nodes), term%weights)
+               if (is_of_stress(term)) at%s = matmul(results%nodal_stress(:4, term%nodes), term%weights)
+               if (is_of_strain(term)) at%e = matmul(strain(:, term%nodes), term%weights)
+            else
+               at%u = results%u(:, i)
+               if (is_of_stress(term)) at%s = results%nodal_stress(:4, i)
+               if (is_of_strain(term)) at%e = strain(:, i)
+            end if
+            values(k) = place_field(term%field, at)
+         end do
+      end function nodal_values
    end function value_of_term
 
    !> One of all_step_quantities; nan where the step has it not, as what a search finds without a search.
@@ -86,62 +139,6 @@ contains
       i = findloc(list%name, all_of_them(field)%name, dim=1)
       if (i > 0) value = list(i)%value
    end function step_value
-
-   !> One of ZONE_FIELDS. Without contact an extent is 0, and nothing else is defined.
-   pure real(wp) function zone_value(term, contact, rows) result(value)
-      type(term_t), intent(in) :: term
-      type(contact_result_t), intent(in) :: contact
-      type(history_row_t), intent(in) :: rows(:)
-      character(len=:), allocatable :: name
-      real(wp) :: ends(2)
-
-      name = trim(ZONE_FIELDS(term%field))
-      ends = contact_zone(contact)
-      if (name(:6) == 'stick_') ends = stick_zone(contact, term%nu)
-      select case (name(index(name, '_') + 1:))
-      case ('start')
-         value = ends(1)
-      case ('end')
-         value = ends(2)
-      case ('centre')
-         value = 0.5_wp*(ends(1) + ends(2))
-      case ('time')
-         value = time_of_change(rows, term%pair, name == 'closing_time')
-      case default
-         value = 0.0_wp
-         if (.not. any(is_nan(ends))) value = ends(2) - ends(1)
-         if (index(name, 'half') > 0) value = 0.5_wp*value
-      end select
-   end function zone_value
-
-   pure function nodal_values(term, results, strain) result(values)
-      type(term_t), intent(in) :: term
-      type(results_t), intent(in) :: results
-      real(wp), allocatable, intent(in) :: strain(:, :) !< at the nodes; not allocated: no term asks for it
-      real(wp) :: values(merge(1, size(term%nodes), term%is_place))
-      type(place_values_t) :: at
-      integer(ip) :: i
-      integer :: k
-
-      if (term%field >= FIRST_FORCE) then
-         values = results%reaction(term%field - FIRST_FORCE + 1, term%nodes)
-         return
-      end if
-      do k = 1, size(values)
-         if (allocated(term%arm)) at%arm = term%arm(:, k)
-         i = term%nodes(k)
-         if (term%is_place) then
-            at%u = matmul(results%u(:, term%nodes), term%weights)
-            if (is_of_stress(term)) at%s = matmul(results%nodal_stress(:4, term%nodes), term%weights)
-            if (is_of_strain(term)) at%e = matmul(strain(:, term%nodes), term%weights)
-         else
-            at%u = results%u(:, i)
-            if (is_of_stress(term)) at%s = results%nodal_stress(:4, i)
-            if (is_of_strain(term)) at%e = strain(:, i)
-         end if
-         values(k) = place_field(term%field, at)
-      end do
-   end function nodal_values
 
    !> Whether a term wants stresses at the nodes.
    pure logical function is_of_stress(term)

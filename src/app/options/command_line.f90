@@ -107,32 +107,72 @@ contains
       if (any(OPTIONS(given%option)%name == '--help')) command%task = TASK_OPTIONS
       if (any(OPTIONS(given%option)%name == '--version')) command%task = TASK_VERSION
       if (command%task /= TASK_USAGE .or. size(arguments) == 0) return
-      call find_task(names, command, error)
+      call find_task()
       do i = 1, size(given)
          if (.not. allocated(error%text)) call take_option(given(i), command, error)
       end do
-      if (.not. allocated(error%text)) call check_command(command, error)
+      if (.not. allocated(error%text)) call check_command()
       ok = .not. allocated(error%text)
+
+   contains
+
+      !> What options have to do with each other and with the command.
+      subroutine check_command()
+
+         if (command%task == TASK_SWEEP .and. size(command%vary) == 0) then
+            error = wrong('a sweep needs the parameter that it varies', expected=task_form(TASK_SWEEP))
+         else if (command%task == TASK_STUDY .and. command%levels == 0) then
+            error = wrong('a study needs the number of its levels', expected=task_form(TASK_STUDY))
+         else if ((allocated(command%view%scale) .or. allocated(command%view%box) .or. command%view%labels) &
+                  .and. .not. command%plot) then
+            error = wrong('--plot-scale, --plot-box and --plot-labels are of pictures', expected='--plot besides')
+         else if (command%task == TASK_LIMIT .and. size(command%vary) /= 1) then
+            error = wrong('a limit needs the one parameter that it varies', expected=task_form(TASK_LIMIT))
+         else if (command%task == TASK_CHECK .and. allocated(command%folder) .and. .not. command%plot) then
+            error = wrong('-o is no option of atrito check without --plot', expected='atrito check DECK.inp --plot -o DIR')
+         end if
+      end subroutine check_command
+
+      !> The first name says what is to be done; the others are its objects.
+      subroutine find_task()
+
+         if (size(names) == 0) then
+            error = wrong('there is no deck', expected=task_form(TASK_RUN))
+            return
+         end if
+         command%task = task_named(names(1)%s)
+         command%names = names(merge(1, 2, command%task == TASK_RUN):)
+         if (command%task == TASK_COMPARE) then
+            if (size(command%names) /= 2) error = wrong('compare takes two names, not '//to_text(size(command%names, kind=ip)), &
+                                                        expected=task_form(TASK_COMPARE))
+         else if (command%task /= TASK_HELP) then
+            call check_deck(command%names, command%task)
+         end if
+      end subroutine find_task
+
+      !> One deck; a word that is no file but nearly a command is a misspelt command.
+      subroutine check_deck(names, task)
+         type(string_t), intent(in) :: names(:)
+         integer, intent(in) :: task
+         type(string_t), allocatable :: near(:)
+
+         if (size(names) == 0) then
+            error = wrong('there is no deck', expected=task_form(task))
+            return
+         end if
+         allocate (near(0))
+         if (scan(names(1)%s, './') == 0) then
+            if (.not. file_exists(names(1)%s)) near = nearest_names(names(1)%s, command_names(), 2)
+         end if
+         if (size(near) > 0) then
+            error = wrong('unknown command '//names(1)%s, nearest=near)
+         else if (size(names) > 1) then
+            error = wrong('one deck at a time; '//names(2)%s//' is too much', expected=task_form(task))
+         else if (len_trim(names(1)%s) == 0) then
+            error = wrong('the name of the deck is empty', expected=task_form(task))
+         end if
+      end subroutine check_deck
    end subroutine parse_command
-
-   !> What options have to do with each other and with the command.
-   subroutine check_command(command, error)
-      type(command_t), intent(in) :: command
-      type(message_t), intent(inout) :: error
-
-      if (command%task == TASK_SWEEP .and. size(command%vary) == 0) then
-         error = wrong('a sweep needs the parameter that it varies', expected=task_form(TASK_SWEEP))
-      else if (command%task == TASK_STUDY .and. command%levels == 0) then
-         error = wrong('a study needs the number of its levels', expected=task_form(TASK_STUDY))
-      else if ((allocated(command%view%scale) .or. allocated(command%view%box) .or. command%view%labels) &
-               .and. .not. command%plot) then
-         error = wrong('--plot-scale, --plot-box and --plot-labels are of pictures', expected='--plot besides')
-      else if (command%task == TASK_LIMIT .and. size(command%vary) /= 1) then
-         error = wrong('a limit needs the one parameter that it varies', expected=task_form(TASK_LIMIT))
-      else if (command%task == TASK_CHECK .and. allocated(command%folder) .and. .not. command%plot) then
-         error = wrong('-o is no option of atrito check without --plot', expected='atrito check DECK.inp --plot -o DIR')
-      end if
-   end subroutine check_command
 
    !> The messages are to be JSON, also one about the command line itself.
    pure logical function wants_json(arguments)
@@ -165,42 +205,40 @@ contains
             else if (only_names .or. len(argument) < 2 .or. index(argument, '-') /= 1) then
                call append_string(names, argument)
             else
-               call read_option(arguments, i, given, error)
+               call read_option()
             end if
          end associate
          i = i + 1
       end do
-   end subroutine sort_arguments
 
-   !> Adds the option at place i: `--name value`, `--name=value` or `--name`.
-   subroutine read_option(arguments, i, given, error)
-      type(string_t), intent(in) :: arguments(:)
-      integer, intent(inout) :: i                   !< the last argument that belongs to it
-      type(given_t), allocatable, intent(inout) :: given(:)
-      type(message_t), intent(inout) :: error
-      type(given_t) :: one
-      character(len=:), allocatable :: name
-      integer :: equals
+   contains
 
-      equals = index(arguments(i)%s, '=')
-      name = arguments(i)%s
-      if (equals > 0) name = arguments(i)%s(:equals - 1)
-      one%option = find_option(name)
-      if (one%option == 0) then
-         error = wrong('unknown option '//name, nearest=nearest_names(name, trimmed_strings(OPTIONS%name), 3))
-      else if (.not. has_value(one%option)) then
-         if (equals > 0) error = wrong(name//' takes no value')
-      else if (equals > 0) then
-         one%value = arguments(i)%s(equals + 1:)
-      else
-         i = i + 1
-         if (i <= size(arguments)) then
-            if (index(arguments(i)%s, '--') /= 1) one%value = arguments(i)%s
+      !> Adds the option at place i: `--name value`, `--name=value` or `--name`.
+      subroutine read_option()
+         type(given_t) :: one
+         character(len=:), allocatable :: name
+         integer :: equals
+
+         equals = index(arguments(i)%s, '=')
+         name = arguments(i)%s
+         if (equals > 0) name = arguments(i)%s(:equals - 1)
+         one%option = find_option(name)
+         if (one%option == 0) then
+            error = wrong('unknown option '//name, nearest=nearest_names(name, trimmed_strings(OPTIONS%name), 3))
+         else if (.not. has_value(one%option)) then
+            if (equals > 0) error = wrong(name//' takes no value')
+         else if (equals > 0) then
+            one%value = arguments(i)%s(equals + 1:)
+         else
+            i = i + 1
+            if (i <= size(arguments)) then
+               if (index(arguments(i)%s, '--') /= 1) one%value = arguments(i)%s
+            end if
+            if (.not. allocated(one%value)) error = wrong(name//' needs a value', expected=value_text(one%option))
          end if
-         if (.not. allocated(one%value)) error = wrong(name//' needs a value', expected=value_text(one%option))
-      end if
-      given = [given, one]
-   end subroutine read_option
+         given = [given, one]
+      end subroutine read_option
+   end subroutine sort_arguments
 
    !> An error of the command line.
    function wrong(text, expected, nearest) result(error)
@@ -216,50 +254,6 @@ contains
       if (present(expected)) error%expected = expected
       if (present(nearest)) error%nearest = nearest
    end function wrong
-
-   !> The first name says what is to be done; the others are its objects.
-   subroutine find_task(names, command, error)
-      type(string_t), intent(in) :: names(:)
-      type(command_t), intent(inout) :: command
-      type(message_t), intent(inout) :: error
-
-      if (size(names) == 0) then
-         error = wrong('there is no deck', expected=task_form(TASK_RUN))
-         return
-      end if
-      command%task = task_named(names(1)%s)
-      command%names = names(merge(1, 2, command%task == TASK_RUN):)
-      if (command%task == TASK_COMPARE) then
-         if (size(command%names) /= 2) error = wrong('compare takes two names, not '//to_text(size(command%names, kind=ip)), &
-                                                     expected=task_form(TASK_COMPARE))
-      else if (command%task /= TASK_HELP) then
-         call check_deck(command%names, command%task, error)
-      end if
-   end subroutine find_task
-
-   !> One deck; a word that is no file but nearly a command is a misspelt command.
-   subroutine check_deck(names, task, error)
-      type(string_t), intent(in) :: names(:)
-      integer, intent(in) :: task
-      type(message_t), intent(inout) :: error
-      type(string_t), allocatable :: near(:)
-
-      if (size(names) == 0) then
-         error = wrong('there is no deck', expected=task_form(task))
-         return
-      end if
-      allocate (near(0))
-      if (scan(names(1)%s, './') == 0) then
-         if (.not. file_exists(names(1)%s)) near = nearest_names(names(1)%s, command_names(), 2)
-      end if
-      if (size(near) > 0) then
-         error = wrong('unknown command '//names(1)%s, nearest=near)
-      else if (size(names) > 1) then
-         error = wrong('one deck at a time; '//names(2)%s//' is too much', expected=task_form(task))
-      else if (len_trim(names(1)%s) == 0) then
-         error = wrong('the name of the deck is empty', expected=task_form(task))
-      end if
-   end subroutine check_deck
 
    !> Puts an option where it belongs.
    subroutine take_option(given, command, error)

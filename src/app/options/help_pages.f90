@@ -1,26 +1,24 @@
 !> How the program is called (docs/user/running.md), from the tables of commands, options, exit codes and keywords: what `atrito`
 !> alone prints, `atrito --help`, and the manual page atrito(1). The last two have their entries, a word and its meaning, in two
 !> forms: in columns for a screen, or in the language of man(7), which groff sets.
+!>
+!> Completion for bash, 4 or later: `atrito help bash`. The words are those of the tables of tasks, options and keywords.
 module atrito_help_pages
+   use atrito_completion_lines, only: take_completion_lines
    use atrito_keyword, only: keyword_t, LEVEL_MODEL, LEVEL_STEP, LEVEL_BOTH
    use atrito_keyword_table, only: keyword_table
+   use atrito_manual_lines, only: take_manual_lines
    use atrito_option_table, only: OPTIONS, TASKS, TASK_RUN, task_form, called, find_option, option_group_t, group_options, &
-                                  option_text, phrase_text, task_named, task_text
+                                 option_text, phrase_text, task_named, task_text, VALUE_FOLDER, VALUE_FILE, command_names, has_value
    use atrito_page, only: page_t, begin_page, add_blank, add_line, add_paragraph
-   use atrito_strings, only: lower_case, upper_case, recoded
+   use atrito_strings, only: lower_case, upper_case, recoded, string_t, append_string, join
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
    implicit none (type, external)
    private
-   public :: compose_usage, compose_options, compose_topic, compose_man_page
+   public :: compose_usage, compose_options, compose_topic, compose_man_page, compose_bash_completion, options_of, options_where, &
+             VALUE_WORDS
 
    character(len=*), parameter :: SUMMARY = 'contact with friction between elastic bodies'
-   character(len=*), parameter :: DESCRIPTION(*) = [character(len=320) :: &
-          'atrito finds displacements, stresses and contact forces of linear elastic bodies in the plane or of revolution that '// &
-         'touch with friction, by finite elements. A deck of keywords goes in, in the tradition of Abaqus and CalculiX; tables '// &
-                                                    'and a listing come out.', &
-           'Standard output is for the summary, standard error for progress and messages. A run whose check of equilibrium and '// &
-                                                    'contact law fails never ends with 0.']
-
    type :: exit_code_t
       character(len=13) :: codes                    !< one or several
       character(len=110) :: meaning                 !< in a phrase
@@ -44,6 +42,10 @@ module atrito_help_pages
                'The thickness of a section is in L; pressures and slopes of contact are F/L^2 and F/L^3, a penalty delta is L^3/F.']
    integer, parameter :: WIDTH = 80                  !< columns of the screen
    integer, parameter :: ROFF = 0                    !< in the place of a column of the screen: the form of man(7)
+
+   character(len=*), parameter :: HELP_PAGES = 'all man bash'    !< what `atrito help` knows besides keywords
+   !> What bash can do for the value of an option: there is none; nothing, for the user alone knows it; ...
+   integer, parameter :: VALUE_NONE = 0, VALUE_OWN = 1, VALUE_WORDS = 2, VALUE_A_FOLDER = 3, VALUE_A_FILE = 4
 
 contains
 
@@ -109,50 +111,46 @@ contains
       end do
    end subroutine compose_topic
 
-   !> The manual page.
+   !> The manual page: manual.roff, with what the tables have in its places.
    subroutine compose_man_page(page)
       type(page_t), intent(out) :: page             !< in the language of man(7)
-      integer :: i
+      type(string_t), allocatable :: lines(:)
+      integer :: i, task
 
       call begin_page(page, WIDTH)
-      call add_line(page, '.\" Printed by `atrito help man`; do not edit.')
-      call add_line(page, '.TH '//upper_case(PROGRAM_NAME)//' 1 "" "'//PROGRAM_NAME//' '//PROGRAM_VERSION//'" "User Commands"')
-      call add_line(page, '.SH NAME')
-      call add_line(page, PROGRAM_NAME//' \- '//roff_text(SUMMARY))
-      call add_line(page, '.SH SYNOPSIS')
-      do i = 1, size(TASKS)
-         if (i > 1) call add_line(page, '.br')
-         call add_line(page, '.B '//roff_text(called(i)))
-         if (len_trim(TASKS(i)%options) > 0) call add_line(page, roff_text(trim(TASKS(i)%options)))
+      call take_manual_lines(lines)
+      do i = 1, size(lines)
+         select case (lines(i)%s)
+         case ('@SYNOPSIS@')
+            do task = 1, size(TASKS)
+               if (task > 1) call add_line(page, '.br')
+               call add_line(page, '.B '//roff_text(called(task)))
+               if (len_trim(TASKS(task)%options) > 0) call add_line(page, roff_text(trim(TASKS(task)%options)))
+            end do
+         case ('@COMMANDS@')
+            call add_commands(page, ROFF)
+         case ('@OPTIONS@')
+            call add_options(page, ROFF)
+         case ('@KEYWORDS@')
+            call add_keywords(page)
+         case ('@EXIT CODES@')
+            call add_exit_codes(page, ROFF)
+         case default
+            call add_line(page, filled(lines(i)%s, '@VERSION@', PROGRAM_VERSION))
+         end select
       end do
-      call add_line(page, '.SH DESCRIPTION')
-      do i = 1, size(DESCRIPTION)
-         if (i > 1) call add_line(page, '.PP')
-         call add_line(page, roff_text(trim(DESCRIPTION(i))))
-      end do
-      call add_line(page, '.SH COMMANDS')
-      call add_commands(page, ROFF)
-      call add_entry(page, 'atrito help man | bash', 'this page; what completes commands, options and keywords in bash', ROFF)
-      call add_line(page, '.SH OPTIONS')
-      call add_line(page, roff_text('Options may stand before or behind the names; --name value and --name=value are the same. '// &
-                                    'Behind -- everything is a name.'))
-      call add_options(page, ROFF)
-      call add_keywords(page)
-      call add_line(page, '.SH EXIT STATUS')
-      call add_exit_codes(page, ROFF)
-      call add_line(page, '.SH ENVIRONMENT')
-      call add_entry(page, 'NO_COLOR', 'where it is set and not empty, messages on a terminal have no colours', ROFF)
-      call add_entry(page, 'TERM', 'nor where it is not set, or dumb', ROFF)
-      call add_line(page, '.SH FILES')
-      call add_entry(page, 'share/atrito/input', 'decks of examples and lessons, below the prefix of the installation', ROFF)
-      call add_entry(page, 'share/doc/atrito', 'the documentation, in Markdown; begin with docs/user/first-deck.md', ROFF)
-      call add_line(page, '.SH EXAMPLES')
-      call add_entry(page, 'atrito plate.inp --set nu=0 --refine 1', &
-                     'plate.inp without friction, on a mesh of four times the elements; tables in ./output/plate', ROFF)
-      call add_entry(page, 'atrito check plate.inp', 'all errors of the deck, or what it needs', ROFF)
-      call add_line(page, '.SH SEE ALSO')
-      call add_line(page, '.BR gnuplot (1)')
    end subroutine compose_man_page
+
+   !> A text with something in its place.
+   pure function filled(text, place, by) result(whole)
+      character(len=*), intent(in) :: text, place, by
+      character(len=:), allocatable :: whole
+      integer :: i
+
+      whole = text
+      i = index(text, place)
+      if (i > 0) whole = text(:i - 1)//by//text(i + len(place):)
+   end function filled
 
    subroutine add_commands(page, column)
       type(page_t), intent(inout) :: page
@@ -202,9 +200,6 @@ contains
                                                                                 'of a step, between *STEP and *END STEP', 'of both']
 
       table = keyword_table()
-      call add_line(page, '.SH KEYWORDS')
-      call add_line(page, roff_text('A deck is made of lines *KEYWORD, OPTION=value, each with its data lines. '// &
-                                    'atrito help KEYWORD prints all of a keyword; + marks what is atrito''s own.'))
       do level = 1, size(LEVELS)
          call add_line(page, '.SS '//roff_text(trim(TITLES(level))))
          do i = 1, size(table)
@@ -251,5 +246,92 @@ contains
       safe = recoded(text, '\-''`', [character(len=4) :: '\e', '\-', '\(aq', '\(ga'])
       if (index(text, '.') == 1) safe = '\&'//safe
    end function roff_text
+
+   !> The script for bash: completion.bash, with what the tables have in its places.
+   subroutine compose_bash_completion(page)
+      type(page_t), intent(out) :: page             !< the lines of the script
+      type(string_t), allocatable :: lines(:)
+      type(keyword_t), allocatable :: keywords(:)
+      character(len=:), allocatable :: line
+      integer :: i, k
+
+      call begin_page(page, WIDTH)
+      call take_completion_lines(lines)
+      keywords = keyword_table()
+      do i = 1, size(lines)
+         select case (lines(i)%s)
+         case ('@KEYWORDS@')
+            do k = 1, size(keywords)
+               call add_line(page, keywords(k)%name)
+            end do
+         case ('@OPTIONS WITH WORDS@')
+            do k = 1, size(OPTIONS)
+               if (kind_of_value(k) == VALUE_WORDS) call add_line(page, '      '//trim(OPTIONS(k)%name)//') _atrito_words '''// &
+                                                                  trim(OPTIONS(k)%words)//'''; return ;;')
+            end do
+         case ('@TASKS@')
+            do k = 1, size(TASKS)
+               call add_line(page, '      '//trim(merge('run    ', TASKS(k)%name, k == TASK_RUN))//':-*) _atrito_words '''// &
+                             options_of(k)//''' ;;')
+            end do
+         case default
+            line = filled(lines(i)%s, '@PAGES@', HELP_PAGES)
+            line = filled(line, '@FOLDERS@', options_where([VALUE_A_FOLDER]))
+            line = filled(line, '@FILES@', options_where([VALUE_A_FILE]))
+            line = filled(line, '@OWN@', options_where([VALUE_OWN]))
+            line = filled(line, '@VALUES@', options_where([VALUE_OWN, VALUE_WORDS, VALUE_A_FOLDER, VALUE_A_FILE]))
+            line = filled(line, '@COMMANDS@', join(command_names(), '|'))
+            call add_line(page, filled(line, '@WORDS@', join(command_names(), ' ')))
+         end select
+      end do
+   end subroutine compose_bash_completion
+
+   !> What a shell can do for the value of an option, VALUE_...
+   pure integer function kind_of_value(option) result(kind)
+      integer, intent(in) :: option                 !< place in OPTIONS
+
+      kind = VALUE_OWN
+      if (.not. has_value(option)) kind = VALUE_NONE
+      if (OPTIONS(option)%value == VALUE_FOLDER) kind = VALUE_A_FOLDER
+      if (OPTIONS(option)%value == VALUE_FILE) kind = VALUE_A_FILE
+      if (len_trim(OPTIONS(option)%words) > 0) kind = VALUE_WORDS
+   end function kind_of_value
+
+   !> All names of the options that a task knows, blanks between them.
+   pure function options_of(task) result(text)
+      integer, intent(in) :: task                   !< TASK_*
+      character(len=:), allocatable :: text
+      type(string_t), allocatable :: names(:)
+      integer :: i
+
+      allocate (names(0))
+      do i = 1, size(OPTIONS)
+         if (OPTIONS(i)%for_task(task)) call add_names(names, i)
+      end do
+      text = join(names, ' ')
+   end function options_of
+
+   !> The options whose values are of one of these kinds, `|` between them.
+   pure function options_where(kinds) result(text)
+      integer, intent(in) :: kinds(:)               !< VALUE_...
+      character(len=:), allocatable :: text
+      type(string_t), allocatable :: names(:)
+      integer :: i
+
+      allocate (names(0))
+      do i = 1, size(OPTIONS)
+         if (any(kinds == kind_of_value(i))) call add_names(names, i)
+      end do
+      text = join(names, '|')
+   end function options_where
+
+   !> Appends both names of an option.
+   pure subroutine add_names(names, option)
+      type(string_t), allocatable, intent(inout) :: names(:)
+      integer, intent(in) :: option                 !< place in OPTIONS
+
+      call append_string(names, trim(OPTIONS(option)%name))
+      if (len_trim(OPTIONS(option)%short) > 0) call append_string(names, trim(OPTIONS(option)%short))
+   end subroutine add_names
 
 end module atrito_help_pages

@@ -23,7 +23,7 @@ module atrito_series
    use atrito_report_maker, only: make_report
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: string_t, append_string
-   use atrito_sweep_journal, only: JOURNAL_NAME
+   use atrito_sweep_plan, only: JOURNAL_NAME
    use atrito_table, only: origin_t, TAB_ENDING, CSV_ENDING
    use atrito_system, only: processor_seconds
    implicit none (type, external)

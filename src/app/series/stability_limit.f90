@@ -12,7 +12,7 @@ module atrito_stability_limit
    use atrito_folder_claim, only: folder_claim_t, release_folder
    use atrito_frame_spool, only: begin_frames, end_frames, frame_spool_t
    use atrito_history, only: solve_history
-   use atrito_end_points, only: add_end_points
+   use atrito_pairing, only: add_end_points
    use atrito_kinds, only: ip, lp, wp
    use atrito_load_model, only: load_model, prepare_observations
    use atrito_mesh, only: find_node
@@ -100,27 +100,53 @@ contains
          if (code /= STATUS_OK) return
          call probe_balance(model, answer, excess, status, limit%collapse)
       end if
-      if (is_ok(status)) call warn_of_motions(command, limit)
-      if (is_ok(status)) call finish(command, origin, model, limit, seconds_since(began), status)
+      if (is_ok(status)) call warn_of_motions()
+      if (is_ok(status)) call finish(seconds_since(began), status)
       if (.not. is_ok(status)) call print_status(status, command%names(1)%s, command%json)
       code = status%code
       if (is_ok(status) .and. .not. limit%is_close) code = STATUS_NOT_CONVERGED
-   end subroutine find_limit
 
-   !> Motions that are not small where it stands, as a run warns of them.
-   subroutine warn_of_motions(command, limit)
-      type(command_t), intent(in) :: command
-      type(stability_t), intent(in) :: limit
-      character(len=:), allocatable :: large
-      integer(ip) :: n_printed
+   contains
 
-      large = large_where_it_stands(limit)
-      if (len(large) == 0) return
-      n_printed = count_messages()
-      call add_warning('W-LARGE', 'where it stands, at '//limit%parameter//' = '//to_text(limit%stands, 10)//': '//large// &
+      !> Motions that are not small where it stands, as a run warns of them.
+      subroutine warn_of_motions()
+         character(len=:), allocatable :: large
+         integer(ip) :: n_printed
+
+         large = large_where_it_stands(limit)
+         if (len(large) == 0) return
+         n_printed = count_messages()
+         call add_warning('W-LARGE', 'where it stands, at '//limit%parameter//' = '//to_text(limit%stands, 10)//': '//large// &
                        '; the linear theory, in which forces, normals and places are those without loads, does not know the motion')
-      call print_messages(command%quiet, n_printed + 1, command%json)
-   end subroutine warn_of_motions
+         call print_messages(command%quiet, n_printed + 1, command%json)
+      end subroutine warn_of_motions
+
+      !> Tables, pictures and closing lines.
+      subroutine finish(seconds, status)
+         real(wp), intent(in) :: seconds(2)             !< wall clock and processor
+         type(status_t), intent(out) :: status
+         type(table_t) :: tables(2)
+         type(page_t) :: page
+         type(report_t) :: report
+         type(string_t), allocatable :: pictures(:)
+
+         origin%not_converged = .not. limit%is_close
+         call build_values(limit, tables(1))
+         call build_mechanism(limit, tables(2))
+         call write_table_set(output_folder(command), tables, origin, int(command%digits), status, command%is_csv)
+         if (.not. is_ok(status)) return
+         call begin_pictures(command)
+         allocate (pictures(0))
+         if (command%plot) call write_stability_plots(output_folder(command), origin%deck, model, limit, command%view, pictures)
+         call compose_stability(command%names(1)%s, output_folder(command), limit, seconds, page, pictures)
+         if (command%report) then
+            call begin_series('limit', command%names(1)%s, output_folder(command), ['limit    ', 'mechanism'], pictures, report)
+            report%heading = model%heading
+            call report_of_limit(limit, seconds, report)
+         end if
+         call print_closing(command, page, report)
+      end subroutine finish
+   end subroutine find_limit
 
    !> Asks until the search has what it needs: at a value of the parameter whether the loads can be balanced, or what the solution
    !> is. code: of a deck that has errors at a value, and the like; printed.
@@ -146,7 +172,7 @@ contains
          if (step == STEP_DONE) exit
          call find_value(limit, x, one)
          if (step == STEP_BALANCE) then
-            call ask_balance(command, limit, search, one, code)
+            call ask_balance()
             if (code == STATUS_OK .and. size(search%tried) == 2) call predict_limit(command, limit, search)
          else
             call ask_solution(command, limit, store, start, search, one, code)
@@ -173,32 +199,29 @@ contains
          end select
          call report_phase(reporter, limit%parameter//' = '//to_text(x, 12)//'  '//answer_text)
       end do
+
+   contains
+
+      !> Whether the loads can be balanced at a value. The first such question tells what the deck has to say.
+      subroutine ask_balance()
+         type(model_t) :: model
+         type(status_t) :: status
+         integer(ip) :: n_printed
+         integer :: verdict
+
+         call load_value(command, limit%parameter, one%value, size(search%tried) > 0, model, code, n_printed)
+         if (code /= STATUS_OK) return
+         call probe_balance(model, verdict, one%excess, status)
+         code = status%code
+         if (.not. is_ok(status)) then
+            call print_failure(command, limit%parameter, one%value, status)
+            return
+         end if
+         call record_balance(search, one%value, verdict, one%excess)
+         if (verdict == FALLS) one%code = STATUS_SINGULAR
+         if (verdict == UNDECIDED) one%excess = ieee_value(1.0_wp, ieee_quiet_nan)
+      end subroutine ask_balance
    end subroutine ask_all
-
-   !> Whether the loads can be balanced at a value. The first such question tells what the deck has to say.
-   subroutine ask_balance(command, limit, search, one, code)
-      type(command_t), intent(in) :: command
-      type(stability_t), intent(in) :: limit
-      type(search_t), intent(inout) :: search
-      type(stability_value_t), intent(inout) :: one
-      integer, intent(out) :: code
-      type(model_t) :: model
-      type(status_t) :: status
-      integer(ip) :: n_printed
-      integer :: verdict
-
-      call load_value(command, limit%parameter, one%value, size(search%tried) > 0, model, code, n_printed)
-      if (code /= STATUS_OK) return
-      call probe_balance(model, verdict, one%excess, status)
-      code = status%code
-      if (.not. is_ok(status)) then
-         call print_failure(command, limit%parameter, one%value, status)
-         return
-      end if
-      call record_balance(search, one%value, verdict, one%excess)
-      if (verdict == FALLS) one%code = STATUS_SINGULAR
-      if (verdict == UNDECIDED) one%excess = ieee_value(1.0_wp, ieee_quiet_nan)
-   end subroutine ask_balance
 
    !> Where the balance ends by one linear programme, once both ends are known, where one stands and the other falls.
    subroutine predict_limit(command, limit, search)
@@ -408,35 +431,5 @@ contains
          text = text//'neither a solution nor a proof that there is none was found'
       end select
    end function end_text
-
-   !> Tables, pictures and closing lines.
-   subroutine finish(command, origin, model, limit, seconds, status)
-      type(command_t), intent(in) :: command
-      type(origin_t), intent(inout) :: origin
-      type(model_t), intent(in) :: model            !< at the value that falls
-      type(stability_t), intent(in) :: limit
-      real(wp), intent(in) :: seconds(2)             !< wall clock and processor
-      type(status_t), intent(out) :: status
-      type(table_t) :: tables(2)
-      type(page_t) :: page
-      type(report_t) :: report
-      type(string_t), allocatable :: pictures(:)
-
-      origin%not_converged = .not. limit%is_close
-      call build_values(limit, tables(1))
-      call build_mechanism(limit, tables(2))
-      call write_table_set(output_folder(command), tables, origin, int(command%digits), status, command%is_csv)
-      if (.not. is_ok(status)) return
-      call begin_pictures(command)
-      allocate (pictures(0))
-      if (command%plot) call write_stability_plots(output_folder(command), origin%deck, model, limit, command%view, pictures)
-      call compose_stability(command%names(1)%s, output_folder(command), limit, seconds, page, pictures)
-      if (command%report) then
-         call begin_series('limit', command%names(1)%s, output_folder(command), ['limit    ', 'mechanism'], pictures, report)
-         report%heading = model%heading
-         call report_of_limit(limit, seconds, report)
-      end if
-      call print_closing(command, page, report)
-   end subroutine finish
 
 end module atrito_stability_limit

@@ -17,9 +17,8 @@ module atrito_study
    use atrito_status, only: status_t, is_ok, STATUS_OK, STATUS_USAGE, STATUS_NOT_CONVERGED, STATUS_INTERNAL
    use atrito_strings, only: string_t, join, to_text
    use atrito_study_errors, only: last_uniform, study_t
-   use atrito_study_plan, only: plan_study
+   use atrito_study_runs, only: plan_study, find_probe, make_command, has_failed, put_row, take_row, PROBES, make_run, time_again
    use atrito_study_plot, only: write_study_plot
-   use atrito_study_runs, only: find_probe, make_command, has_failed, put_row, take_row, PROBES, make_run, time_again
    use atrito_study_table, only: build_study, compose_study
    use atrito_study_words, only: judge_study
    use atrito_table, only: origin_t, table_t

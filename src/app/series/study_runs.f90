@@ -1,7 +1,10 @@
 !> The runs of a study: at a level with an element, and once more with other regularisations.
+!>
+!> What a study is going to do: its quantities and its runs.
 module atrito_study_runs
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use atrito_body_cache, only: body_cache_t
+   use atrito_buffer, only: buffer_t, put, take
    use atrito_command_line, only: command_t, output_folder
    use atrito_element_table, only: KINDS, kind_named
    use atrito_frame_spool, only: begin_frames, end_frames, frame_spool_t
@@ -10,27 +13,30 @@ module atrito_study_runs
    use atrito_load_model, only: load_model, prepare_observations
    use atrito_messages, only: clear_messages
    use atrito_model, only: model_t
-   use atrito_observations, only: observations_t
-   use atrito_buffer, only: buffer_t, put, take
+   use atrito_numbers, only: read_real, NUMBER_OK
+   use atrito_observations, only: observations_t, observation_name
    use atrito_reporter, only: reporter_t
    use atrito_results, only: history_t
    use atrito_run, only: run_deck, solve_options, agree_on_outcome
+   use atrito_series, only: find_observed
    use atrito_solve, only: solve_options_t
-   use atrito_status, only: status_t, is_ok, STATUS_OK, STATUS_NOT_CONVERGED
-   use atrito_strings, only: to_text, upper_case
+   use atrito_status, only: status_t, is_ok, STATUS_OK, STATUS_NOT_CONVERGED, set_status, STATUS_USAGE
+   use atrito_strings, only: to_text, upper_case, string_t, append_string, join, nearest_names
    use atrito_study_errors, only: run_facts_t, study_t, study_row_t, total_seconds, PROCESSOR
-   use atrito_study_plan, only: DECK_ELEMENTS
-   use atrito_summary, only: quantity_t, scales_t, pair_quantities, step_quantities, summarise_pair
+   use atrito_summary, only: quantity_t, scales_t, pair_quantities, step_quantities, summarise_pair, quantity_names
    use atrito_sweep_tables, only: sweep_run_t, read_summary, summary_value
    use atrito_timers, only: phase_time_t, reset_timers, get_phases
    implicit none (type, external)
    private
-   public :: make_run, time_again, find_probe, make_command, has_failed, put_row, take_row, PROBES
+   public :: make_run, time_again, find_probe, make_command, has_failed, put_row, take_row, PROBES, plan_study
 
    real(wp), parameter :: SHORT = 0.1_wp             !< [s] shorter runs are made three times, for the clock
    integer, parameter :: REPEATS = 2                 !< times that a short run is made again
    !> The runs with other regularisations: half of delta, half of eps, half the compliance of the stick slope.
    character(len=*), parameter :: PROBES(3) = [character(len=21) :: 'half the delta', 'half the eps', 'twice the stick slope']
+
+   character(len=*), parameter :: DECK_ELEMENTS = 'deck'   !< instead of a kind of element: as in the deck
+   character(len=*), parameter :: ADAPTED = 'adapt'  !< the same, cut where the error is
 
 contains
 
@@ -216,5 +222,96 @@ contains
       end if
       one%folder = output_folder(command)//'/'//row%element//'_'//to_text(row%level)
    end subroutine make_command
+
+   !> status: STATUS_USAGE of a reference that means nothing.
+   subroutine plan_study(asked, command, study, status)
+      type(command_t), intent(in) :: asked          !< as the user gave it
+      type(command_t), intent(out) :: command       !< of all runs
+      type(study_t), intent(out) :: study           !< with quantities and rows
+      type(status_t), intent(out) :: status         !< STATUS_OK or STATUS_USAGE
+      integer(ip) :: k
+
+      command = asked
+      ! one solver on all levels: another one from some level on would put a step into the times
+      if (command%solver == 'auto') command%solver = 'sparse'
+      call choose_quantities(command, study, status)
+      if (.not. is_ok(status)) return
+      study%elements = command%elements
+      if (size(study%elements) == 0) call append_string(study%elements, DECK_ELEMENTS)
+      if (command%adapt > 0.0_wp) call append_string(study%elements, ADAPTED)
+      allocate (study%rows(size(study%elements)*command%levels))
+      do k = 1, size(study%rows, kind=ip)            ! every element at every level
+         study%rows(k)%level = mod(k - 1, command%levels)
+         study%rows(k)%element = study%elements((k - 1)/command%levels + 1)%s
+         study%rows(k)%is_adapted = study%rows(k)%element == ADAPTED
+      end do
+   end subroutine plan_study
+
+   !> --reference QUANTITY[=VALUE]; without any the energy and the resultants of the first pair. What is observed is studied in any
+   !> case.
+   subroutine choose_quantities(command, study, status)
+      type(command_t), intent(in) :: command
+      type(study_t), intent(inout) :: study
+      type(status_t), intent(out) :: status
+      type(string_t), allocatable :: list(:), observed(:)
+      integer :: i, equals, outcome
+
+      call find_observed(command, observed)
+      call list_references(list)
+      allocate (study%quantities(size(list)))
+      do i = 1, size(list)
+         associate (quantity => study%quantities(i))
+            equals = index(list(i)%s, '=')
+            quantity%name = observation_name(list(i)%s)
+            call check_name(quantity%name)
+            if (.not. is_ok(status)) return
+            if (equals == 0) cycle
+            quantity%is_given = .true.
+            quantity%source = 'given'
+            call read_real(list(i)%s(equals + 1:), quantity%reference, outcome)
+            if (outcome == NUMBER_OK) cycle
+            call set_status(status, STATUS_USAGE, '--reference '//list(i)%s//': QUANTITY=VALUE with a number is expected')
+            return
+         end associate
+      end do
+
+   contains
+
+      !> The references, then what is observed and not among them; without any reference the energy and the resultants last.
+      subroutine list_references(list)
+         type(string_t), allocatable, intent(out) :: list(:)
+         integer :: i, k
+
+         list = command%references
+         do i = 1, size(observed)
+            do k = 1, size(command%references)
+               if (observation_name(command%references(k)%s) == observed(i)%s) exit
+            end do
+            if (k > size(command%references)) call append_string(list, observed(i)%s)
+         end do
+         if (size(command%references) > 0) return
+         call append_string(list, 'strain_energy')
+         call append_string(list, 'normal_resultant')
+      end subroutine list_references
+
+      subroutine check_name(name)
+         character(len=*), intent(in) :: name
+         type(string_t), allocatable :: names(:), near(:)
+         character(len=:), allocatable :: text
+         integer :: i
+
+         names = quantity_names()
+         do i = 1, size(observed)
+            call append_string(names, observed(i)%s)
+         end do
+         do i = 1, size(names)
+            if (names(i)%s == name) return
+         end do
+         text = '--reference '//name//': summary.tab has no such quantity'
+         near = nearest_names(name, names, 3)
+         if (size(near) > 0) text = text//'; nearest: '//join(near, ', ')
+         call set_status(status, STATUS_USAGE, text)
+      end subroutine check_name
+   end subroutine choose_quantities
 
 end module atrito_study_runs

@@ -27,8 +27,8 @@ module atrito_sweep
    use atrito_status, only: status_t, set_status, is_ok, STATUS_USAGE, STATUS_NOT_CONVERGED, STATUS_INTERNAL
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_study_errors, only: run_facts_t
-   use atrito_sweep_journal, only: sweep_journal_t, begin_journal, note_begin, note_end, find_done, remove_journal, OUTCOMES
-   use atrito_sweep_plan, only: sweep_plan_t, plan_sweep
+   use atrito_sweep_plan, only: sweep_journal_t, begin_journal, note_begin, note_end, find_done, remove_journal, OUTCOMES, &
+                                sweep_plan_t, plan_sweep
    use atrito_sweep_tables, only: sweep_run_t, read_summary, build_sweep, build_runs, compose_sweep
    use atrito_table, only: origin_t, table_t
    use atrito_table_text, only: write_table_set

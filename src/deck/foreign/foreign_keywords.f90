@@ -19,15 +19,6 @@ module atrito_foreign_keywords
       logical :: is_scene = .false.                       !< nothing that is left of such a deck means what it says
    end type subject_t
 
-   !> What *NODE PRINT, *NODE FILE, *EL PRINT and *EL FILE of CalculiX and Abaqus write besides.
-   character(len=6), parameter :: VARIABLES(*) = [character(len=6) :: 'A', 'BHE', 'CEEQ', 'CENT', 'CF', 'COOR', 'COORD', 'CP', &
-                                                                                                                     'DEPF', &
-           'DEPT', 'E', 'EBHE', 'ECD', 'EE', 'ELKE', 'ELSE', 'EMAS', 'EMFB', 'EMFE', 'ENER', 'EPD', 'ERR', 'EVOL', 'FLUX', 'HCRI', &
-             'HER', 'HFL', 'HFLF', 'KEQ', 'LE', 'MACH', 'MAXE', 'MAXS', 'MAXU', 'ME', 'MF', 'MISES', 'MOM', 'NOE', 'NT', 'PDNTDF', &
-              'PE', 'PEEQ', 'PHS', 'PNT', 'POT', 'PRF', 'PS', 'PSF', 'PT', 'PTF', 'PU', 'RFL', 'SDV', 'SEN', 'SF', 'SINV', 'SMID', &
-                                         'SNEG', 'SOF', 'SPOS', 'SVF', 'SVOL', 'THE', 'TS', 'TSF', 'TT', 'TTF', 'TURB', 'V', 'VF', &
-                                                                           'ZZS', 'EP', 'RF3', 'RM', 'S13', 'S23', 'SP', 'U3', 'UR']
-
    !> Keywords that may stand without data lines: preprocessors write them for what the model does not have.
    character(len=18), parameter :: EMPTY(*) = [character(len=18) :: 'BOUNDARY', 'CLOAD', 'DLOAD', 'DSLOAD', 'TEMPERATURE', &
                                  'INITIAL CONDITIONS', 'NODE PRINT', 'EL PRINT', 'NODE FILE', 'EL FILE', 'CONTACT PAIR', 'EQUATION']
@@ -236,10 +227,15 @@ contains
    !> A variable of a request that other programs write, or a component of one: E, E11.
    pure logical function is_foreign_variable(word)
       character(len=*), intent(in) :: word         !< in capitals
+      type(string_t), allocatable :: lines(:)
+      character(len=:), allocatable :: head
       integer :: digits
 
       digits = len(word) - verify(word, '123', back=.true.)
-      is_foreign_variable = any(VARIABLES == word) .or. (digits <= 2 .and. any(VARIABLES == word(:len(word) - digits)))
+      call take_foreign_lines(lines)
+      call look_up(lines, 'variables', word, head)
+      if (digits <= 2 .and. .not. allocated(head)) call look_up(lines, 'variables', word(:len(word) - digits), head)
+      is_foreign_variable = allocated(head)
    end function is_foreign_variable
 
    !> The variable of which a word is a component in the plane, as Abaqus has it: U of U1, RF of RF2, S of S12; '' of others.

@@ -3,9 +3,9 @@
 !> A line is what the format says of it: what is missing or too much is reported where it is, and never taken from the next line.
 module atrito_gmsh_file
    use atrito_element_table, only: MOST_NODES
-   use atrito_gmsh_mesh, only: gmsh_mesh_t, add_part, trim_gmsh_mesh, note_key, key_of, keys_t, find_part, add_element
-   use atrito_gmsh_words, only: words_t, fault_t, next_line, take_word, take_integer, take_real, end_line, fail, word_is, go_on, &
-                                begin_line, read_head, check_count, check_number
+   use atrito_gmsh_mesh, only: gmsh_mesh_t, add_part, trim_gmsh_mesh, note_key, key_of, keys_t, find_part, add_element, words_t, &
+       fault_t, next_line, take_word, take_integer, take_real, end_line, fail, word_is, go_on, begin_line, read_head, check_count, &
+                               check_number
    use atrito_kinds, only: ip, wp
    use atrito_strings, only: to_text
    implicit none (type, external)
@@ -256,57 +256,65 @@ contains
       deallocate (mesh%node_id, mesh%x)
       allocate (mesh%node_id(n), mesh%x(2, n))
       do i = 1, n_blocks
-         call read_node_block(reading, mesh)
+         call read_node_block()
          if (.not. reading%words%ok) return
       end do
-      if (.not. reading%is_new) call read_node_lines(reading, mesh)
+      if (.not. reading%is_new) call read_node_lines()
       if (.not. reading%words%ok) return
       if (mesh%n_nodes < n) call fail(reading%words, 'there are '//to_text(mesh%n_nodes)//' nodes in the blocks', &
                                       to_text(n)//' of them')
-      call check_plane(reading, mesh)
+      call check_plane()
+
+   contains
+
+      !> Format 4.1: numbers, then coordinates.
+      subroutine read_node_block()
+         integer(ip) :: head(4), i, n
+
+         call read_head(reading%words, 'number of nodes', head)
+         n = mesh%n_nodes
+         if (reading%words%ok .and. (head(4) < 0 .or. head(4) > size(mesh%node_id) - n)) then
+            call fail(reading%words, 'more nodes in the blocks than in all', to_text(size(mesh%node_id, kind=ip))//' in all')
+         end if
+         if (.not. reading%words%ok) return
+         do i = n + 1, n + head(4)
+            call begin_line(reading%words, 'node number', mesh%node_id(i))
+            call check_number(reading%words, mesh%node_id(i))
+            if (.not. reading%words%ok) return
+         end do
+         do i = n + 1, n + head(4)
+            call go_on(reading%words, 'x, y and z of a node')
+            reading%words%position = reading%words%first
+            call take_place(reading, mesh%x(:, i))
+            if (.not. reading%words%ok) return
+         end do
+         mesh%n_nodes = n + head(4)
+      end subroutine read_node_block
+
+      !> Format 2.2: number, x, y, z.
+      subroutine read_node_lines()
+         integer(ip) :: i
+
+         do i = 1, size(mesh%node_id, kind=ip)
+            call begin_line(reading%words, 'node number', mesh%node_id(i))
+            call check_number(reading%words, mesh%node_id(i))
+            call take_place(reading, mesh%x(:, i))
+            call end_line(reading%words, 'number, x, y, z')
+            if (.not. reading%words%ok) return
+         end do
+         mesh%n_nodes = size(mesh%node_id, kind=ip)
+      end subroutine read_node_lines
+
+      subroutine check_plane()
+
+         if (mesh%n_nodes == 0 .or. .not. reading%words%ok) return
+         if (reading%most_z <= FLAT*maxval(abs(mesh%x))) return
+         call fail(reading%words, 'the scene is plane: z is not 0', 'a mesh in the plane of x and y, z = 0 [L]')
+         reading%off_plane%text = reading%words%fault%text
+         reading%off_plane%expected = reading%words%fault%expected
+         reading%words%fault = reading%off_plane
+      end subroutine check_plane
    end subroutine read_nodes
-
-   !> Format 4.1: numbers, then coordinates.
-   subroutine read_node_block(reading, mesh)
-      type(reading_t), intent(inout) :: reading
-      type(gmsh_mesh_t), intent(inout) :: mesh
-      integer(ip) :: head(4), i, n
-
-      call read_head(reading%words, 'number of nodes', head)
-      n = mesh%n_nodes
-      if (reading%words%ok .and. (head(4) < 0 .or. head(4) > size(mesh%node_id) - n)) then
-         call fail(reading%words, 'more nodes in the blocks than in all', to_text(size(mesh%node_id, kind=ip))//' in all')
-      end if
-      if (.not. reading%words%ok) return
-      do i = n + 1, n + head(4)
-         call begin_line(reading%words, 'node number', mesh%node_id(i))
-         call check_number(reading%words, mesh%node_id(i))
-         if (.not. reading%words%ok) return
-      end do
-      do i = n + 1, n + head(4)
-         call go_on(reading%words, 'x, y and z of a node')
-         reading%words%position = reading%words%first
-         call take_place(reading, mesh%x(:, i))
-         if (.not. reading%words%ok) return
-      end do
-      mesh%n_nodes = n + head(4)
-   end subroutine read_node_block
-
-   !> Format 2.2: number, x, y, z.
-   subroutine read_node_lines(reading, mesh)
-      type(reading_t), intent(inout) :: reading
-      type(gmsh_mesh_t), intent(inout) :: mesh
-      integer(ip) :: i
-
-      do i = 1, size(mesh%node_id, kind=ip)
-         call begin_line(reading%words, 'node number', mesh%node_id(i))
-         call check_number(reading%words, mesh%node_id(i))
-         call take_place(reading, mesh%x(:, i))
-         call end_line(reading%words, 'number, x, y, z')
-         if (.not. reading%words%ok) return
-      end do
-      mesh%n_nodes = size(mesh%node_id, kind=ip)
-   end subroutine read_node_lines
 
    !> x, y, z; where z is greatest is kept.
    subroutine take_place(reading, x)
@@ -326,18 +334,6 @@ contains
          reading%off_plane%last = words%last
       end associate
    end subroutine take_place
-
-   subroutine check_plane(reading, mesh)
-      type(reading_t), intent(inout) :: reading
-      type(gmsh_mesh_t), intent(in) :: mesh
-
-      if (mesh%n_nodes == 0 .or. .not. reading%words%ok) return
-      if (reading%most_z <= FLAT*maxval(abs(mesh%x))) return
-      call fail(reading%words, 'the scene is plane: z is not 0', 'a mesh in the plane of x and y, z = 0 [L]')
-      reading%off_plane%text = reading%words%fault%text
-      reading%off_plane%expected = reading%words%fault%expected
-      reading%words%fault = reading%off_plane
-   end subroutine check_plane
 
    !> The section $Elements, behind its first line.
    subroutine read_elements(is_new, words, mesh)
@@ -360,69 +356,65 @@ contains
       call trim_gmsh_mesh(mesh, n)
       do i = 1, n_blocks
          if (is_new) then
-            call read_element_block(words, mesh, n)
+            call read_element_block()
          else
-            call read_old_element(words, old, mesh)
+            call read_old_element()
          end if
          if (.not. words%ok) return
       end do
       if (mesh%n_elements < n) call fail(words, 'there are '//to_text(mesh%n_elements)//' elements in the blocks', &
                                          to_text(n)//' of them')
-   end subroutine read_elements
 
-   !> Format 4.1: number, nodes.
-   subroutine read_element_block(words, mesh, n)
-      type(words_t), intent(inout) :: words
-      type(gmsh_mesh_t), intent(inout) :: mesh
-      integer(ip), intent(in) :: n                     !< elements in all
-      integer(ip) :: head(4), i, id, part
+   contains
 
-      call begin_line(words, 'dimension of the entity', head(1))
-      call take_integer(words, 'tag of the entity', head(2))
-      call take_integer(words, 'type of the elements', head(3))
-      call check_type(words, head(3))
-      call take_integer(words, 'number of elements', head(4))
-      if (words%ok .and. (head(4) < 0 .or. head(4) > n - mesh%n_elements)) then
-         call fail(words, 'more elements in the blocks than in all', to_text(n)//' in all')
-      end if
-      call end_line(words, 'four integers')
-      if (.not. words%ok) return
-      part = find_part(mesh, DIM_OF_TYPE(head(3)), head(2))
-      if (part == 0) then
-         call add_part(mesh, DIM_OF_TYPE(head(3)), head(2), [integer(ip) ::])
-         part = mesh%n_parts
-      end if
-      do i = 1, head(4)
+      !> Format 4.1: number, nodes.
+      subroutine read_element_block()
+         integer(ip) :: head(4), i, id, part
+
+         call begin_line(words, 'dimension of the entity', head(1))
+         call take_integer(words, 'tag of the entity', head(2))
+         call take_integer(words, 'type of the elements', head(3))
+         call check_type(words, head(3))
+         call take_integer(words, 'number of elements', head(4))
+         if (words%ok .and. (head(4) < 0 .or. head(4) > n - mesh%n_elements)) then
+            call fail(words, 'more elements in the blocks than in all', to_text(n)//' in all')
+         end if
+         call end_line(words, 'four integers')
+         if (.not. words%ok) return
+         part = find_part(mesh, DIM_OF_TYPE(head(3)), head(2))
+         if (part == 0) then
+            call add_part(mesh, DIM_OF_TYPE(head(3)), head(2), [integer(ip) ::])
+            part = mesh%n_parts
+         end if
+         do i = 1, head(4)
+            call begin_line(words, 'element number', id)
+            call check_number(words, id)
+            call take_nodes(words, mesh, id, part, NODES_OF_TYPE(head(3)))
+            if (.not. words%ok) return
+         end do
+      end subroutine read_element_block
+
+      !> Format 2.2: number, type, how many tags, physical group, entity, further tags, nodes.
+      subroutine read_old_element()
+         integer(ip) :: id, kind, n_tags, tags(2), i, other
+
          call begin_line(words, 'element number', id)
          call check_number(words, id)
-         call take_nodes(words, mesh, id, part, NODES_OF_TYPE(head(3)))
+         call take_integer(words, 'type of the element', kind)
+         call check_type(words, kind)
+         call take_integer(words, 'number of tags', n_tags)
+         call check_count(words, n_tags, 2_ip)
+         tags = 0
+         do i = 1, n_tags
+            call take_integer(words, 'a tag', other)
+            if (i <= 2) tags(i) = other
+            if (.not. words%ok) return
+         end do
          if (.not. words%ok) return
-      end do
-   end subroutine read_element_block
-
-   !> Format 2.2: number, type, how many tags, physical group, entity, further tags, nodes.
-   subroutine read_old_element(words, old, mesh)
-      type(words_t), intent(inout) :: words
-      type(old_part_t), intent(inout) :: old
-      type(gmsh_mesh_t), intent(inout) :: mesh
-      integer(ip) :: id, kind, n_tags, tags(2), i, other
-
-      call begin_line(words, 'element number', id)
-      call check_number(words, id)
-      call take_integer(words, 'type of the element', kind)
-      call check_type(words, kind)
-      call take_integer(words, 'number of tags', n_tags)
-      call check_count(words, n_tags, 2_ip)
-      tags = 0
-      do i = 1, n_tags
-         call take_integer(words, 'a tag', other)
-         if (i <= 2) tags(i) = other
-         if (.not. words%ok) return
-      end do
-      if (.not. words%ok) return
-      call find_old_part(old, mesh, [DIM_OF_TYPE(kind), tags(2), abs(tags(1))])
-      call take_nodes(words, mesh, id, old%part, NODES_OF_TYPE(kind))
-   end subroutine read_old_element
+         call find_old_part(old, mesh, [DIM_OF_TYPE(kind), tags(2), abs(tags(1))])
+         call take_nodes(words, mesh, id, old%part, NODES_OF_TYPE(kind))
+      end subroutine read_old_element
+   end subroutine read_elements
 
    !> Format 2.2 knows no entities but by their elements: one of each group.
    subroutine find_old_part(old, mesh, key)

@@ -50,7 +50,7 @@ contains
 
       if (n_blocks > 0) then
          n = deck%n_cards
-         call list_parts(deck, parts)
+         call list_parts()
          call list_instances(deck, parts)
          if (.not. fits_memory(deck, parts)) deck%scopes(1:)%ok = .false.
          call move_alloc(deck%cards, cards)
@@ -58,51 +58,70 @@ contains
          deck%n_cards = 0
          call place_cards(deck, cards(:n), parts)
          call number_scopes(deck)
-         call note_unused(deck, cards, parts)
+         call note_unused()
       end if
       do i = 1, deck%n_cards
          call take_instance_option(deck, deck%cards(i), parts)
       end do
+
+   contains
+
+      !> Names and cards of all parts, and the name of the assembly.
+      subroutine list_parts()
+         character(len=:), allocatable :: name
+         type(token_t) :: place
+         type(part_t), allocatable :: list(:)
+         integer(ip), allocatable :: last(:)
+         integer(ip) :: i, n
+         logical :: found
+
+         ! the last card that belongs to each block, *END PART not among them
+         allocate (last(0:max(0_ip, maxval(deck%cards(:deck%n_cards)%block))), source=0_ip)
+         do i = 1, deck%n_cards
+            last(deck%cards(i)%block) = merge(i - 1, i, deck%cards(i)%name == 'END PART')
+         end do
+         allocate (list(count(deck%cards(:deck%n_cards)%name == 'PART')))
+         n = 0
+         parts%assembly = ''
+         do i = 1, deck%n_cards
+            select case (deck%cards(i)%name)
+            case ('ASSEMBLY')
+               call option_text(deck, deck%cards(i), 'NAME', parts%assembly, found)
+            case ('PART')
+               call option_text(deck, deck%cards(i), 'NAME', name, found, place)
+               if (.not. found .or. len(name) == 0) then
+                  parts%is_undetermined = .true.
+               else if (find_name(parts%names, name) > 0) then
+                  call report_twice(deck, place, deck%cards(list(find_name(parts%names, name))%card)%place, 'part', name)
+               else
+                  call add_name(parts%names, name)
+                  n = n + 1
+                  list(n) = part_t(i, i + 1, last(deck%cards(i)%block))
+               end if
+            end select
+         end do
+         parts%list = list(:n)
+      end subroutine list_parts
+
+      !> A part without an instance is left out; a deck without any instance is an error.
+      subroutine note_unused()
+         integer(ip) :: i
+         logical :: all_known
+
+         if (size(deck%scopes) == 1) then
+            call report_error(deck, cards(findloc(cards%name, 'PART', dim=1))%place, 'E-PART', &
+                              'the deck has parts, but no *INSTANCE of any', &
+                              expected='*ASSEMBLY, *INSTANCE, NAME=, PART=, *END INSTANCE, *END ASSEMBLY', keyword='INSTANCE')
+            return
+         end if
+         all_known = all(deck%scopes%ok)
+         do i = 1, size(parts%list, kind=ip)
+            if (parts%list(i)%is_taken .or. .not. all_known) cycle
+            call report_note(deck, cards(parts%list(i)%card)%place, 'N-PART', 'no *INSTANCE has this part: nothing of it is in '// &
+                             'the scene', keyword='INSTANCE')
+         end do
+      end subroutine note_unused
    end subroutine expand_instances
-
-   !> Names and cards of all parts, and the name of the assembly.
-   subroutine list_parts(deck, parts)
-      type(deck_t), intent(in) :: deck
-      type(parts_t), intent(inout) :: parts
-      character(len=:), allocatable :: name
-      type(token_t) :: place
-      type(part_t), allocatable :: list(:)
-      integer(ip), allocatable :: last(:)
-      integer(ip) :: i, n
-      logical :: found
-
-      ! the last card that belongs to each block, *END PART not among them
-      allocate (last(0:max(0_ip, maxval(deck%cards(:deck%n_cards)%block))), source=0_ip)
-      do i = 1, deck%n_cards
-         last(deck%cards(i)%block) = merge(i - 1, i, deck%cards(i)%name == 'END PART')
-      end do
-      allocate (list(count(deck%cards(:deck%n_cards)%name == 'PART')))
-      n = 0
-      parts%assembly = ''
-      do i = 1, deck%n_cards
-         select case (deck%cards(i)%name)
-         case ('ASSEMBLY')
-            call option_text(deck, deck%cards(i), 'NAME', parts%assembly, found)
-         case ('PART')
-            call option_text(deck, deck%cards(i), 'NAME', name, found, place)
-            if (.not. found .or. len(name) == 0) then
-               parts%is_undetermined = .true.
-            else if (find_name(parts%names, name) > 0) then
-               call report_twice(deck, place, deck%cards(list(find_name(parts%names, name))%card)%place, 'part', name)
-            else
-               call add_name(parts%names, name)
-               n = n + 1
-               list(n) = part_t(i, i + 1, last(deck%cards(i)%block))
-            end if
-         end select
-      end do
-      parts%list = list(:n)
-   end subroutine list_parts
 
    !> A scope for each instance, one that is faulty too: what refers to it is passed over in silence.
    subroutine list_instances(deck, parts)
@@ -211,33 +230,71 @@ contains
             instance_block = cards(i)%block
             call append_card(deck, cards(i))
             part = part_of(deck, cards(i), parts, is_told=.false.)
-            if (part > 0 .and. deck%scopes(s)%ok) call place_part(deck, cards, parts%list(part), s)
+            if (part > 0 .and. deck%scopes(s)%ok) call place_part(parts%list(part), s)
          else if (cards(i)%block == 0 .or. cards(i)%block == instance_block) then
             scope = merge(s, 0_ip, cards(i)%block > 0 .and. cards(i)%block == instance_block)
             call append_card(deck, cards(i))
             call mark_card(deck, deck%cards(deck%n_cards), scope)
-            if (scope == 0) call find_owners(deck, deck%cards(deck%n_cards), parts)
+            if (scope == 0) call find_owners(deck%cards(deck%n_cards))
          end if
       end do
+
+   contains
+
+      subroutine place_part(part, scope)
+         type(part_t), intent(inout) :: part
+         integer(ip), intent(in) :: scope
+         type(card_t) :: card
+         integer(ip) :: i
+
+         do i = part%first, part%last
+            if (cards(i)%block /= cards(part%card)%block) cycle
+            card = cards(i)
+            if (part%is_taken) call copy_lines(deck, card)
+            call append_card(deck, card)
+            call mark_card(deck, deck%cards(deck%n_cards), scope)
+         end do
+         part%is_taken = .true.
+      end subroutine place_part
+
+      !> Outside of parts, `instance.name`, `instance.12` and `assembly.instance.name` are the instance's.
+      subroutine find_owners(card)
+         type(card_t), intent(inout) :: card
+         integer(ip) :: i, k
+         integer :: o
+
+         if (any(card%name == [character(len=9) :: 'HEADING', 'PARAMETER', 'UNITS', 'OBSERVE'])) return
+         do o = 1, size(card%options)
+            if (card%options(o)%has_value) call find_owner(card%options(o)%value)
+         end do
+         do i = card%first_line, card%first_line + card%n_lines - 1
+            do k = deck%lines(i)%first_token, deck%lines(i)%first_token + deck%lines(i)%n_tokens - 1
+               call find_owner(deck%tokens(k))
+            end do
+         end do
+      end subroutine find_owners
+
+      pure subroutine find_owner(token)
+         type(token_t), intent(inout) :: token
+         integer(ip) :: dot, scope
+         integer :: k, quoted
+
+         do k = 1, 2
+            if (is_empty_token(token)) return
+            associate (text => deck%sources(token%source)%text(token%first:token%last))
+               quoted = merge(1, 0, text(1:1) == '"')     ! "my part-1".top
+               dot = index(text, trim(merge('".', '. ', quoted == 1))) + quoted
+               if (dot < 2 + 2*quoted .or. dot == len(text)) return
+               scope = find_name(parts%instances, text(1 + quoted:dot - 1 - quoted))
+               if (scope == 0 .and. .not. same_name(text(1 + quoted:dot - 1 - quoted), parts%assembly)) return
+            end associate
+            token%first = token%first + dot
+            token%column = token%column + dot
+            token%scope = scope
+            if (scope > 0) return
+         end do
+      end subroutine find_owner
    end subroutine place_cards
-
-   subroutine place_part(deck, cards, part, scope)
-      type(deck_t), intent(inout) :: deck
-      type(card_t), intent(in) :: cards(:)
-      type(part_t), intent(inout) :: part
-      integer(ip), intent(in) :: scope
-      type(card_t) :: card
-      integer(ip) :: i
-
-      do i = part%first, part%last
-         if (cards(i)%block /= cards(part%card)%block) cycle
-         card = cards(i)
-         if (part%is_taken) call copy_lines(deck, card)
-         call append_card(deck, card)
-         call mark_card(deck, deck%cards(deck%n_cards), scope)
-      end do
-      part%is_taken = .true.
-   end subroutine place_part
 
    !> Gives a card lines and items of its own.
    subroutine copy_lines(deck, card)
@@ -298,48 +355,6 @@ contains
       end do
    end subroutine mark_card
 
-   !> Outside of parts, `instance.name`, `instance.12` and `assembly.instance.name` are the instance's.
-   subroutine find_owners(deck, card, parts)
-      type(deck_t), intent(inout) :: deck
-      type(card_t), intent(inout) :: card
-      type(parts_t), intent(in) :: parts
-      integer(ip) :: i, k
-      integer :: o
-
-      if (any(card%name == [character(len=9) :: 'HEADING', 'PARAMETER', 'UNITS', 'OBSERVE'])) return
-      do o = 1, size(card%options)
-         if (card%options(o)%has_value) call find_owner(deck, card%options(o)%value, parts)
-      end do
-      do i = card%first_line, card%first_line + card%n_lines - 1
-         do k = deck%lines(i)%first_token, deck%lines(i)%first_token + deck%lines(i)%n_tokens - 1
-            call find_owner(deck, deck%tokens(k), parts)
-         end do
-      end do
-   end subroutine find_owners
-
-   pure subroutine find_owner(deck, token, parts)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(inout) :: token
-      type(parts_t), intent(in) :: parts
-      integer(ip) :: dot, scope
-      integer :: k, quoted
-
-      do k = 1, 2
-         if (is_empty_token(token)) return
-         associate (text => deck%sources(token%source)%text(token%first:token%last))
-            quoted = merge(1, 0, text(1:1) == '"')     ! "my part-1".top
-            dot = index(text, trim(merge('".', '. ', quoted == 1))) + quoted
-            if (dot < 2 + 2*quoted .or. dot == len(text)) return
-            scope = find_name(parts%instances, text(1 + quoted:dot - 1 - quoted))
-            if (scope == 0 .and. .not. same_name(text(1 + quoted:dot - 1 - quoted), parts%assembly)) return
-         end associate
-         token%first = token%first + dot
-         token%column = token%column + dot
-         token%scope = scope
-         if (scope > 0) return
-      end do
-   end subroutine find_owner
-
    !> The members of a set with INSTANCE= are those of the instance, its name is that of the assembly.
    subroutine take_instance_option(deck, card, parts)
       type(deck_t), intent(inout) :: deck
@@ -367,28 +382,6 @@ contains
          end do
       end do
    end subroutine take_instance_option
-
-   !> A part without an instance is left out; a deck without any instance is an error.
-   subroutine note_unused(deck, cards, parts)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: cards(:)
-      type(parts_t), intent(in) :: parts
-      integer(ip) :: i
-      logical :: all_known
-
-      if (size(deck%scopes) == 1) then
-         call report_error(deck, cards(findloc(cards%name, 'PART', dim=1))%place, 'E-PART', &
-                           'the deck has parts, but no *INSTANCE of any', &
-                           expected='*ASSEMBLY, *INSTANCE, NAME=, PART=, *END INSTANCE, *END ASSEMBLY', keyword='INSTANCE')
-         return
-      end if
-      all_known = all(deck%scopes%ok)
-      do i = 1, size(parts%list, kind=ip)
-         if (parts%list(i)%is_taken .or. .not. all_known) cycle
-         call report_note(deck, cards(parts%list(i)%card)%place, 'N-PART', 'no *INSTANCE has this part: nothing of it is in '// &
-                          'the scene', keyword='INSTANCE')
-      end do
-   end subroutine note_unused
 
    !> The numbers of a deck in parts: those of each instance begin at 1 again, in the model each node and element has one of its
    !> own.

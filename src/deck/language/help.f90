@@ -2,10 +2,10 @@
 module atrito_help
    use atrito_foreign_keywords, only: subject_t, ask_keyword, foreign_keywords, take_subjects, NOT_FOREIGN, FOREIGN_IGNORED, &
                                       FOREIGN_OUTSIDE
+   use atrito_introduction_lines, only: take_introduction_lines
    use atrito_keyword, only: keyword_t, option_spec_t, form_t
-   use atrito_keyword_table, only: keyword_table, find_keyword, packed
-   use atrito_keyword_text, only: form_text, option_text_of, choices_text, lines_text, condition_text, &
-                                  with_dimension, item_meaning, LEVEL_TEXTS
+   use atrito_keyword_table, only: keyword_table, find_keyword, packed, form_text, option_text_of, choices_text, lines_text, &
+                                   condition_text, with_dimension, item_meaning, LEVEL_TEXTS
    use atrito_strings, only: break_line, string_t, append_string, upper_case, recoded
    implicit none (type, external)
    private
@@ -16,24 +16,6 @@ module atrito_help
 
    !> Where a keyword stands, by LEVEL_*, in the manual.
    character(len=23), parameter :: PLACES(3) = [character(len=23) :: 'In the model', 'In a step', 'In the model or a step']
-
-   character(len=107), parameter :: INTRODUCTION(16) = [character(len=107) :: &
-                                                        '# Keywords of a deck', &
-                                                        '', &
-                     '*A reference for those who write decks. After it you know what a keyword, its options and its lines mean.*', &
-                                                        '', &
-                           'This page is printed by `atrito help all > docs/user/keywords.md` from the table of the deck reader;', &
-                                      'do not edit it. `atrito help KEYWORD` prints one section, `atrito help` what each is for.', &
-                                                        '', &
-                            'A deck is made of lines `*KEYWORD, OPTION=value`, each with its data lines of items between commas.', &
-                               '`**` begins a comment. A comma at the end of a keyword line continues it. Names are without case', &
-                               'and have at most 80 characters; "quotes" may stand round them; all digits means a number. A real', &
-                             'may be written as an integer, an integer not as a real. An empty item takes its default. The model', &
-                                                        'stands before \*STEP, a step between \*STEP and \*END STEP.', &
-                                                        '', &
-                            'A + marks what is atrito''s own; the rest is read by Abaqus or CalculiX too. What is ignored has no', &
-                           'effect, and a note says so. Items with a dimension are reals; F is force, L length, T time, in units', &
-                                                        'of yours that are consistent.']
 
 contains
 
@@ -93,11 +75,8 @@ contains
       integer :: i
       character(len=:), allocatable :: text
 
-      allocate (lines(0))
+      call take_introduction_lines(lines)
       table = keyword_table()
-      do i = 1, size(INTRODUCTION)
-         call append_string(lines, trim(INTRODUCTION(i)))
-      end do
       do i = 1, size(table)
          call append_block(lines, '## '//escaped(title_of(table(i))))
          text = upper_case(table(i)%summary(:1))//table(i)%summary(2:)//'. '//trim(PLACES(table(i)%level))
@@ -142,10 +121,10 @@ contains
       if (size(keyword%options) > 0) call append_block(lines, trim(merge('Options:', 'Options ', markdown)))
       if (size(keyword%options) > 0 .and. markdown) call append_string(lines, '')
       do i = 1, size(keyword%options)
-         call append_option(lines, keyword%options(i), markdown)
+         call append_option(keyword%options(i))
       end do
       do i = 1, size(keyword%forms)
-         call append_form(lines, keyword%forms(i), markdown)
+         call append_form(keyword%forms(i))
       end do
       if (size(keyword%example) == 0) return
       call append_block(lines, trim(merge('```    ', 'Example', markdown)))
@@ -153,57 +132,55 @@ contains
          call append_string(lines, repeat(' ', merge(0, 2, markdown))//keyword%example(i)%s)
       end do
       if (markdown) call append_string(lines, '```')
-   end subroutine append_keyword
 
-   subroutine append_option(lines, option, markdown)
-      type(string_t), allocatable, intent(inout) :: lines(:)
-      type(option_spec_t), intent(in) :: option
-      logical, intent(in) :: markdown
-      character(len=:), allocatable :: text
+   contains
 
-      text = with_dimension(option%doc, option%dimension)
-      if (size(option%choices) > 0) text = text//': '//choices_text(option%choices)
-      if (len(option%default) > 0) text = text//'; default '//option%default
-      if (len(option%needs) > 0) text = text//'; goes with '//option%needs
-      if (option%required) text = text//' (required)'
-      if (.not. option%built) text = text//' (not built yet)'
-      if (option%harmless) text = text//trim(merge(' (ignored)          ', ' (no effect, a note)', markdown))
-      if (markdown) then
-         call append_string(lines, '- `'//option_text_of(option)//'`: '//escaped(text))
-      else
-         call append_entry(lines, option_text_of(option), text)
-      end if
-   end subroutine append_option
+      subroutine append_option(option)
+         type(option_spec_t), intent(in) :: option
+         character(len=:), allocatable :: text
 
-   subroutine append_form(lines, form, markdown)
-      type(string_t), allocatable, intent(inout) :: lines(:)
-      type(form_t), intent(in) :: form
-      logical, intent(in) :: markdown
-      character(len=:), allocatable :: title
-      integer :: i
-
-      title = 'Data lines'
-      if (len(form%option) > 0) title = title//' '//condition_text(form)
-      title = title//': '//form%doc//' ('//lines_text(form)//')'
-      call append_string(lines, '')
-      if (markdown) then
-         if (form%harmless) title = title//' (no effect)'
-         call append_string(lines, escaped(title)//':')
-         call append_string(lines, '`'//form_text(form, names_only=.true.)//'`')
-         call append_string(lines, '')
-      else
-         if (form%harmless) title = title//', no effect'
-         call append_wrapped(lines, '', title)
-         call append_wrapped(lines, '  ', form_text(form))
-      end if
-      do i = 1, size(form%items)
+         text = with_dimension(option%doc, option%dimension)
+         if (size(option%choices) > 0) text = text//': '//choices_text(option%choices)
+         if (len(option%default) > 0) text = text//'; default '//option%default
+         if (len(option%needs) > 0) text = text//'; goes with '//option%needs
+         if (option%required) text = text//' (required)'
+         if (.not. option%built) text = text//' (not built yet)'
+         if (option%harmless) text = text//trim(merge(' (ignored)          ', ' (no effect, a note)', markdown))
          if (markdown) then
-            call append_string(lines, '- '//escaped(form%items(i)%name//': '//item_meaning(form%items(i))))
+            call append_string(lines, '- `'//option_text_of(option)//'`: '//escaped(text))
          else
-            call append_entry(lines, form%items(i)%name, item_meaning(form%items(i)))
+            call append_entry(lines, option_text_of(option), text)
          end if
-      end do
-   end subroutine append_form
+      end subroutine append_option
+
+      subroutine append_form(form)
+         type(form_t), intent(in) :: form
+         character(len=:), allocatable :: title
+         integer :: i
+
+         title = 'Data lines'
+         if (len(form%option) > 0) title = title//' '//condition_text(form)
+         title = title//': '//form%doc//' ('//lines_text(form)//')'
+         call append_string(lines, '')
+         if (markdown) then
+            if (form%harmless) title = title//' (no effect)'
+            call append_string(lines, escaped(title)//':')
+            call append_string(lines, '`'//form_text(form, names_only=.true.)//'`')
+            call append_string(lines, '')
+         else
+            if (form%harmless) title = title//', no effect'
+            call append_wrapped(lines, '', title)
+            call append_wrapped(lines, '  ', form_text(form))
+         end if
+         do i = 1, size(form%items)
+            if (markdown) then
+               call append_string(lines, '- '//escaped(form%items(i)%name//': '//item_meaning(form%items(i))))
+            else
+               call append_entry(lines, form%items(i)%name, item_meaning(form%items(i)))
+            end if
+         end do
+      end subroutine append_form
+   end subroutine append_keyword
 
    !> All keywords of other programs, a section of the manual.
    subroutine append_all_foreign(lines, table)

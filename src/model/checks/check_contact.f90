@@ -87,48 +87,48 @@ contains
             call report_error(deck, place, 'E-PAIR', 'the drawn surface '//surface%name//' belongs to no body', &
                               expected='*RIGID BODY, ANALYTICAL SURFACE='//surface%name, keyword='RIGID BODY')
          else if (surface%faces%n > 0) then
-            if (is_slave .and. .not. is_judged) call check_slave(model, context, surface%faces, place, report)
+            if (is_slave .and. .not. is_judged) call check_slave(surface%faces)
             is_judged = is_judged .or. is_slave
          else if (.not. has_errors()) then              ! else elements are missing, and that was reported
             call report_error(deck, place, 'E-SURFACE', 'surface '//surface%name//' has no faces: others join it everywhere', &
                               expected='a surface on the outline of a body', keyword='CONTACT PAIR')
          end if
       end associate
-   end subroutine check_side
 
-   !> A slave is one chain of faces, with the middle nodes of these in their middles: where one lies at a quarter of its face, as at
-   !> the tip of a crack, a node of the face has no part of the surface.
-   subroutine check_slave(model, context, faces, place, report)
-      type(model_t), intent(in) :: model
-      type(build_context_t), intent(in) :: context
-      type(face_list_t), intent(in) :: faces
-      type(token_t), intent(in) :: place
-      type(chain_report_t), intent(in) :: report
-      type(number_list_t) :: elements
-      integer(ip) :: k
+   contains
 
-      if (has_errors()) return               ! the chain may be broken by what was reported already
-      associate (mesh => model%mesh)
-         if (report%branch_node > 0) then
-            call report_error(context%deck, place, 'E-CHAIN', 'the slave branches at node '// &
-                              to_text(mesh%node_id(report%branch_node)), expected='one connected chain of faces', &
-                              keyword='CONTACT PAIR')
-         else if (report%loose_face > 0) then
-            call report_error(context%deck, place, 'E-CHAIN', 'the slave is not connected: face S'// &
-                              to_text(faces%face(report%loose_face))//' of element '// &
-                              to_text(mesh%element_id(faces%element(report%loose_face)))//' does not continue the others', &
-                              expected='one connected chain of faces; otherwise a pair for each', keyword='CONTACT PAIR')
-         end if
-         do k = 1, faces%n
-            if (has_quarter_node(mesh%x(:, face_nodes(mesh, faces%element(k), faces%face(k))))) then
-               call add_number(elements, mesh%element_id(faces%element(k)))
+      !> A slave is one chain of faces, with the middle nodes of these in their middles: where one lies at a quarter of its face,
+      !> as at
+      !> the tip of a crack, a node of the face has no part of the surface.
+      subroutine check_slave(faces)
+         type(face_list_t), intent(in) :: faces
+         type(number_list_t) :: elements
+         integer(ip) :: k
+
+         if (has_errors()) return               ! the chain may be broken by what was reported already
+         associate (mesh => model%mesh)
+            if (report%branch_node > 0) then
+               call report_error(context%deck, place, 'E-CHAIN', 'the slave branches at node '// &
+                                 to_text(mesh%node_id(report%branch_node)), expected='one connected chain of faces', &
+                                 keyword='CONTACT PAIR')
+            else if (report%loose_face > 0) then
+               call report_error(context%deck, place, 'E-CHAIN', 'the slave is not connected: face S'// &
+                                 to_text(faces%face(report%loose_face))//' of element '// &
+                                 to_text(mesh%element_id(faces%element(report%loose_face)))//' does not continue the others', &
+                                 expected='one connected chain of faces; otherwise a pair for each', keyword='CONTACT PAIR')
             end if
-         end do
-      end associate
-      if (elements%n > 0) call report_error(context%deck, place, 'E-PAIR', 'a slave face of element '// &
-                                            ids_text(numbers_of(elements))//' has its middle node at a quarter of it', &
-                                            expected='middle nodes in the middle of the faces of a slave', keyword='CONTACT PAIR')
-   end subroutine check_slave
+            do k = 1, faces%n
+               if (has_quarter_node(mesh%x(:, face_nodes(mesh, faces%element(k), faces%face(k))))) then
+                  call add_number(elements, mesh%element_id(faces%element(k)))
+               end if
+            end do
+         end associate
+         if (elements%n > 0) call report_error(context%deck, place, 'E-PAIR', 'a slave face of element '// &
+                                               ids_text(numbers_of(elements))//' has its middle node at a quarter of it', &
+                                               expected='middle nodes in the middle of the faces of a slave', &
+                                               keyword='CONTACT PAIR')
+      end subroutine check_slave
+   end subroutine check_side
 
    !> Of each pair the nodes that both sides have. Pairs of one master come together: its nodes are marked once for all of them.
    subroutine list_shared_nodes(model, shared)
@@ -194,55 +194,52 @@ contains
       type(face_list_t), intent(in) :: slave, master
       integer(ip) :: own, other
 
-      own = only_face_at(mesh, node, slave)
-      other = only_face_at(mesh, node, master)
+      own = only_face_at(slave)
+      other = only_face_at(master)
       is_tip = own > 0 .and. other > 0
       if (.not. is_tip) return
       is_tip = dot_product(face_normal(mesh, slave%element(own), slave%face(own)), &
                            face_normal(mesh, master%element(other), master%face(other))) <= FACING
-      if (is_tip) is_tip = filled_angle(mesh, around, node) > PI
+      if (is_tip) is_tip = filled_angle() > PI
+
+   contains
+
+      !> The one face of a list that begins or ends at a node; 0 where there is none, or more.
+      pure integer(ip) function only_face_at(faces) result(found)
+         type(face_list_t), intent(in) :: faces
+         integer(ip) :: i
+
+         found = 0
+         do i = 1, faces%n
+            associate (e => faces%element(i), f => faces%face(i))
+               if (all(mesh%nodes([f, face_end(mesh, e, f)], e) /= node)) cycle
+            end associate
+            if (found > 0) then
+               found = 0
+               return
+            end if
+            found = i
+         end do
+      end function only_face_at
+
+      !> The angle that the elements round a node take there, by the chords of their sides.
+      pure real(wp) function filled_angle() result(angle)
+         real(wp) :: a(2), b(2)
+         integer(ip) :: i, k, n
+
+         angle = 0.0_wp
+         do i = around%first(node), around%first(node + 1) - 1
+            associate (corners => mesh%nodes(:side_count(mesh, around%list(i)), around%list(i)))
+               n = size(corners, kind=ip)
+               k = findloc(corners, node, dim=1, kind=ip)
+               if (k == 0) cycle                      ! in the middle of a side, which is no corner
+               a = mesh%x(:, corners(mod(k, n) + 1)) - mesh%x(:, node)
+               b = mesh%x(:, corners(mod(k + n - 2, n) + 1)) - mesh%x(:, node)
+               angle = angle + atan2(abs(a(1)*b(2) - a(2)*b(1)), dot_product(a, b))
+            end associate
+         end do
+      end function filled_angle
    end function is_crack_tip
-
-   !> The one face of a list that begins or ends at a node; 0 where there is none, or more.
-   pure integer(ip) function only_face_at(mesh, node, faces) result(found)
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: node
-      type(face_list_t), intent(in) :: faces
-      integer(ip) :: i
-
-      found = 0
-      do i = 1, faces%n
-         associate (e => faces%element(i), f => faces%face(i))
-            if (all(mesh%nodes([f, face_end(mesh, e, f)], e) /= node)) cycle
-         end associate
-         if (found > 0) then
-            found = 0
-            return
-         end if
-         found = i
-      end do
-   end function only_face_at
-
-   !> The angle that the elements round a node take there, by the chords of their sides.
-   pure real(wp) function filled_angle(mesh, around, node) result(angle)
-      type(mesh_t), intent(in) :: mesh
-      type(node_elements_t), intent(in) :: around
-      integer(ip), intent(in) :: node
-      real(wp) :: a(2), b(2)
-      integer(ip) :: i, k, n
-
-      angle = 0.0_wp
-      do i = around%first(node), around%first(node + 1) - 1
-         associate (corners => mesh%nodes(:side_count(mesh, around%list(i)), around%list(i)))
-            n = size(corners, kind=ip)
-            k = findloc(corners, node, dim=1, kind=ip)
-            if (k == 0) cycle                      ! in the middle of a side, which is no corner
-            a = mesh%x(:, corners(mod(k, n) + 1)) - mesh%x(:, node)
-            b = mesh%x(:, corners(mod(k + n - 2, n) + 1)) - mesh%x(:, node)
-            angle = angle + atan2(abs(a(1)*b(2) - a(2)*b(1)), dot_product(a, b))
-         end associate
-      end do
-   end function filled_angle
 
    !> Reports interactions that no pair has; for models without any error.
    subroutine note_unused_interactions(model, context)
@@ -270,41 +267,62 @@ contains
       is_judged = .false.
       do i = 1, size(model%pairs, kind=ip)
          if (model%points(i)%n == 0) then
-            call report_blind(context, model, i)
+            call report_blind()
          else
             call judge_points(context, model, i)
-            if (.not. is_judged(model%pairs(i)%interaction)) call judge_radius(context, model, i, &
-                                                                               is_judged(model%pairs(i)%interaction))
+            if (.not. is_judged(model%pairs(i)%interaction)) call judge_radius(is_judged(model%pairs(i)%interaction))
          end if
       end do
+
+   contains
+
+      !> No face of the slave finds the master, or none has a node that is no tip of a crack.
+      subroutine report_blind()
+         character(len=:), allocatable :: text, expected
+         real(wp) :: normal(2)
+
+         associate (points => model%points(i), faces => model%surfaces(model%pairs(i)%slave)%faces)
+            if (points%n_left_out < points%n_faces) then
+               text = 'the slave has no other nodes than the tips of the crack'
+               expected = 'a slave of several faces, or the other surface as the slave'
+            else if (points%n_seeing > 0) then
+               text = 'no face of the slave finds the master with all of its nodes: the master ends in front of '// &
+                      to_text(points%n_seeing)//trim(merge(' face ', ' faces', points%n_seeing == 1))
+               expected = 'a slave with finer faces, or the other surface as the slave'
+            else
+               normal = face_normal(model%mesh, faces%element(1), faces%face(1))
+               text = 'no point of the slave finds the master: the outward normal of the slave''s first face is ('// &
+                      to_text(normal(1), 3)//', '//to_text(normal(2), 3)// &
+                      '), and along the normals there is no surface that faces the other way'
+               expected = 'a master in front of the slave, its own normal pointing back; a drawn line faces the side at its left'
+            end if
+         end associate
+         call report_error(context%deck, context%slaves(i), 'E-PAIR', text, expected=expected, keyword='CONTACT PAIR')
+      end subroutine report_blind
+
+      !> The radius of the average against the distance of the points.
+      subroutine judge_radius(is_reported)
+         logical, intent(inout) :: is_reported
+         real(wp) :: spacing
+
+         associate (law => model%interactions(model%pairs(i)%interaction), &
+                    place => context%interactions(model%pairs(i)%interaction))
+            if (law%friction /= FRICTION_NONLOCAL .or. .not. law%rho > 0.0_wp) return
+            spacing = least_spacing(model%points(i)%x)
+            is_reported = law%rho < spacing .or. (law%kernel == KERNEL_LINE .and. law%rho < LINE_SPACINGS*spacing)
+            if (law%rho < spacing) then
+               call report_note(context%deck, place, 'N-RADIUS', 'rho = '//to_text(law%rho)// &
+                                ' is less than the least distance of '//'contact points, '//to_text(spacing)// &
+                                ': the average leaves the pressure as it is', keyword='FRICTION')
+            else if (is_reported) then
+               call report_warning(context%deck, place, 'W-RADIUS', 'rho = '//to_text(law%rho)// &
+                                   ' is less than three distances of '//'contact points, '//to_text(spacing)// &
+                                   ': with KERNEL=LINE a uniform pressure does not stay '//'uniform', expected='rho >= '// &
+                                   to_text(LINE_SPACINGS*spacing)//' [L], or KERNEL=POINTS', keyword='FRICTION')
+            end if
+         end associate
+      end subroutine judge_radius
    end subroutine check_points_of_pairs
-
-   !> No face of the slave finds the master, or none has a node that is no tip of a crack.
-   subroutine report_blind(context, model, i)
-      type(build_context_t), intent(in) :: context
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: i                     !< the pair
-      character(len=:), allocatable :: text, expected
-      real(wp) :: normal(2)
-
-      associate (points => model%points(i), faces => model%surfaces(model%pairs(i)%slave)%faces)
-         if (points%n_left_out < points%n_faces) then
-            text = 'the slave has no other nodes than the tips of the crack'
-            expected = 'a slave of several faces, or the other surface as the slave'
-         else if (points%n_seeing > 0) then
-            text = 'no face of the slave finds the master with all of its nodes: the master ends in front of '// &
-                   to_text(points%n_seeing)//trim(merge(' face ', ' faces', points%n_seeing == 1))
-            expected = 'a slave with finer faces, or the other surface as the slave'
-         else
-            normal = face_normal(model%mesh, faces%element(1), faces%face(1))
-            text = 'no point of the slave finds the master: the outward normal of the slave''s first face is ('// &
-                   to_text(normal(1), 3)//', '//to_text(normal(2), 3)// &
-                   '), and along the normals there is no surface that faces the other way'
-            expected = 'a master in front of the slave, its own normal pointing back; a drawn line faces the side at its left'
-         end if
-      end associate
-      call report_error(context%deck, context%slaves(i), 'E-PAIR', text, expected=expected, keyword='CONTACT PAIR')
-   end subroutine report_blind
 
    !> Notes what the points of a pair leave out, and by which quadrature they are; warns of a coarse slave.
    subroutine judge_points(context, model, i)
@@ -345,29 +363,5 @@ contains
                                               polygon_angle(model%mesh, model%surfaces(model%pairs(i)%slave)%faces))
       end function can_be_master
    end subroutine judge_points
-
-   !> The radius of the average against the distance of the points.
-   subroutine judge_radius(context, model, i, is_reported)
-      type(build_context_t), intent(in) :: context
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: i                     !< the pair
-      logical, intent(inout) :: is_reported
-      real(wp) :: spacing
-
-      associate (law => model%interactions(model%pairs(i)%interaction), place => context%interactions(model%pairs(i)%interaction))
-         if (law%friction /= FRICTION_NONLOCAL .or. .not. law%rho > 0.0_wp) return
-         spacing = least_spacing(model%points(i)%x)
-         is_reported = law%rho < spacing .or. (law%kernel == KERNEL_LINE .and. law%rho < LINE_SPACINGS*spacing)
-         if (law%rho < spacing) then
-            call report_note(context%deck, place, 'N-RADIUS', 'rho = '//to_text(law%rho)//' is less than the least distance of '// &
-                             'contact points, '//to_text(spacing)//': the average leaves the pressure as it is', keyword='FRICTION')
-         else if (is_reported) then
-            call report_warning(context%deck, place, 'W-RADIUS', 'rho = '//to_text(law%rho)//' is less than three distances of '// &
-                                'contact points, '//to_text(spacing)//': with KERNEL=LINE a uniform pressure does not stay '// &
-                                'uniform', expected='rho >= '//to_text(LINE_SPACINGS*spacing)//' [L], or KERNEL=POINTS', &
-                                keyword='FRICTION')
-         end if
-      end associate
-   end subroutine judge_radius
 
 end module atrito_check_contact

@@ -104,71 +104,69 @@ contains
          associate (loads => model%steps(i)%element_loads)
             if (loads%n == 0) cycle
             if (any(.not. is_on_volume(loads%kind) .and. loads%line > reported)) then
-               if (.not. allocated(pair_at)) call find_contact_faces(model, pair_at)
-               call warn_of_loads(model, context, loads, pair_at, reported)
+               if (.not. allocated(pair_at)) call find_contact_faces(pair_at)
+               call warn_of_loads(loads)
             end if
             reported = max(reported, maxval(loads%line))
          end associate
       end do
-   end subroutine warn_of_loaded_contact
 
-   !> For each face of an element the last pair in whose points both ends of the face have a part: of a master longer than its slave
-   !> the faces that face nothing do not count.
-   pure subroutine find_contact_faces(model, pair_at)
-      type(model_t), intent(in) :: model
-      integer(ip), allocatable, intent(out) :: pair_at(:, :) !< (MOST_SIDES, n_elements); 0: none
-      logical, allocatable :: touched(:)
-      integer(ip) :: i, k, side
+   contains
 
-      allocate (pair_at(MOST_SIDES, model%mesh%n_elements), source=0_ip)
-      allocate (touched(model%mesh%n_nodes), source=.false.)
-      do i = 1, size(model%pairs, kind=ip)
-         touched(model%points(i)%entry) = .true.
-         do side = 1, 2
-            associate (faces => model%surfaces(merge(model%pairs(i)%slave, model%pairs(i)%master, side == 1))%faces)
-               do k = 1, faces%n
-                  associate (nodes => face_nodes(model%mesh, faces%element(k), faces%face(k)))
-                     if (all(touched(nodes(:2)))) pair_at(faces%face(k), faces%element(k)) = i
-                  end associate
-               end do
-            end associate
+      !> For each face of an element the last pair in whose points both ends of the face have a part: of a master longer than its
+      !> slave
+      !> the faces that face nothing do not count.
+      pure subroutine find_contact_faces(pair_at)
+         integer(ip), allocatable, intent(out) :: pair_at(:, :) !< (MOST_SIDES, n_elements); 0: none
+         logical, allocatable :: touched(:)
+         integer(ip) :: i, k, side
+
+         allocate (pair_at(MOST_SIDES, model%mesh%n_elements), source=0_ip)
+         allocate (touched(model%mesh%n_nodes), source=.false.)
+         do i = 1, size(model%pairs, kind=ip)
+            touched(model%points(i)%entry) = .true.
+            do side = 1, 2
+               associate (faces => model%surfaces(merge(model%pairs(i)%slave, model%pairs(i)%master, side == 1))%faces)
+                  do k = 1, faces%n
+                     associate (nodes => face_nodes(model%mesh, faces%element(k), faces%face(k)))
+                        if (all(touched(nodes(:2)))) pair_at(faces%face(k), faces%element(k)) = i
+                     end associate
+                  end do
+               end associate
+            end do
+            touched(model%points(i)%entry) = .false.
          end do
-         touched(model%points(i)%entry) = .false.
-      end do
-   end subroutine find_contact_faces
+      end subroutine find_contact_faces
 
-   !> The loads of a step; those that are inherited have been reported.
-   subroutine warn_of_loads(model, context, loads, pair_at, reported)
-      type(model_t), intent(in) :: model
-      type(build_context_t), intent(in) :: context
-      type(element_load_t), intent(in) :: loads
-      integer(ip), intent(in) :: pair_at(:, :)         !< as of find_contact_faces
-      integer(ip), intent(in) :: reported                  !< last line of the steps before
-      type(number_list_t) :: elements                  ! of a line of the deck: those with loads on faces of pairs
-      integer(ip) :: i, at, pair
+      !> The loads of a step; those that are inherited have been reported.
+      subroutine warn_of_loads(loads)
+         type(element_load_t), intent(in) :: loads
+         type(number_list_t) :: elements                  ! of a line of the deck: those with loads on faces of pairs
+         integer(ip) :: i, at, pair
 
-      pair = 0
-      do i = 1, loads%n
-         if (.not. is_on_volume(loads%kind(i))) then
-            at = pair_at(loads%face(i), loads%element(i))
-            if (at > 0) call add_number(elements, model%mesh%element_id(loads%element(i)))
-            pair = max(pair, at)
-         end if
-         if (i < loads%n) then
-            if (loads%line(i + 1) == loads%line(i)) cycle
-         end if
-         if (pair > 0 .and. loads%line(i) > reported) then
-            associate (place => line_item(context%deck, context%deck%lines(loads%line(i)), 1_ip), p => model%pairs(pair))
-               call report_warning(context%deck, place, 'W-LOADED-CONTACT', 'the load acts on faces of the contact pair ' &
-                                   //model%surfaces(p%slave)%name//' / '//model%surfaces(p%master)%name//', at element ' &
-                                   //ids_text(each_once(numbers_of(elements)))//': it acts there besides the contact pressure', &
-                                   expected='faces that nothing touches', keyword='DSLOAD')
-            end associate
-         end if
          pair = 0
-         elements%n = 0
-      end do
-   end subroutine warn_of_loads
+         do i = 1, loads%n
+            if (.not. is_on_volume(loads%kind(i))) then
+               at = pair_at(loads%face(i), loads%element(i))
+               if (at > 0) call add_number(elements, model%mesh%element_id(loads%element(i)))
+               pair = max(pair, at)
+            end if
+            if (i < loads%n) then
+               if (loads%line(i + 1) == loads%line(i)) cycle
+            end if
+            if (pair > 0 .and. loads%line(i) > reported) then
+               associate (place => line_item(context%deck, context%deck%lines(loads%line(i)), 1_ip), p => model%pairs(pair))
+                  call report_warning(context%deck, place, 'W-LOADED-CONTACT', 'the load acts on faces of the contact pair ' &
+                                      //model%surfaces(p%slave)%name//' / '//model%surfaces(p%master)%name//', at element ' &
+                                      //ids_text(each_once(numbers_of(elements)))//': it acts there besides the contact pressure', &
+                                      expected='faces that nothing touches', keyword='DSLOAD')
+               end associate
+            end if
+            pair = 0
+            elements%n = 0
+         end do
+      end subroutine warn_of_loads
+   end subroutine warn_of_loaded_contact
 
    !> The first two pairs that are one, and how many others there are; for models without any error.
    subroutine warn_of_pairs_twice(model, context)

@@ -54,10 +54,43 @@ contains
                terms = terms(pack([(j, j=1, size(terms, kind=ip))], terms%dof /= NO_DOF))
                if (size(terms) == 0) cycle
                call order_sets(context, place, terms, ok)
-               if (ok) call add_equations(context, place, terms, group, weight)
+               if (ok) call add_equations()
             end do
          end associate
       end do
+
+   contains
+
+      !> The equations of terms: one for each node of the first.
+      subroutine add_equations()
+         integer(ip) :: i, k, node, nodes(TERMS_A_DOF, size(terms))
+         real(wp) :: vectors(2, TERMS_A_DOF, size(terms)), scale
+
+         associate (n => size(terms(1)%nodes, kind=ip))
+            if (any([(size(terms(i)%nodes) /= 1 .and. size(terms(i)%nodes) /= n, i=1, size(terms, kind=ip))])) then
+               call report_error(context%deck, place, 'E-EQUATION', 'the sets of this equation have different numbers of nodes', &
+                                 expected='sets of as many nodes as the first, or single nodes')
+               return
+            end if
+            do k = 1, n
+               do i = 1, size(terms, kind=ip)
+                  node = terms(i)%nodes(min(k, size(terms(i)%nodes, kind=ip)))
+                  call row_terms(context, node, terms(i)%dof, 1.0_wp, nodes(:, i), vectors(:, :, i))
+                  vectors(:, :, i) = terms(i)%coefficient*vectors(:, :, i)
+               end do
+               if (is_empty([nodes], reshape(vectors, [2_ip, size(nodes, kind=ip)]))) then
+                  call report_error(context%deck, place, 'E-VALUE', 'all coefficients of this equation are 0, or cancel', &
+                                    expected='a coefficient other than 0')
+                  return
+               end if
+               scale = 1.0_wp                               ! rotations have another unit: the largest entry is 1 as of motions
+               if (any(terms%dof == ROTATION_DOF)) scale = 1/maxval(abs(vectors))
+               call add_nodal_value(context%model%equations, terms(1)%nodes(k), terms(1)%dof, scale*terms(1)%coefficient)
+               call add_row([nodes], reshape(scale*vectors, [2_ip, size(nodes, kind=ip)]), 0.0_wp, 0.0_wp, &
+                            weight, [ROW_EQUATION, group, context%model%equations%n], context%model%bilateral)
+            end do
+         end associate
+      end subroutine add_equations
    end subroutine build_equations
 
    !> One equation: a line with the number of its terms, and the lines of these. k: first line, and on return the one behind.
@@ -80,7 +113,7 @@ contains
          k = k + 1
          if (k > last) then
             call report_error(context%deck, place, 'E-LINES', to_text(filled)//' terms, where '//to_text(n)//' belong', &
-                              expected=TERM, keyword=KEYWORD)
+                              expected=TERM)
             ok = .false.
             return
          end if
@@ -90,7 +123,7 @@ contains
          if (.not. ok) then
             call report_error(context%deck, line_item(context%deck, context%deck%lines(k), 1_ip), 'E-ITEMS', to_text(items)// &
                               ' items, where '//to_text(n - filled)//trim(merge(' term is  ', ' terms are', n - filled == 1))// &
-                              ' missing', expected=TERM, keyword=KEYWORD)
+                              ' missing', expected=TERM)
             return
          end if
          call read_term_line(context, context%deck%lines(k), terms(filled + 1:filled + more), ok)
@@ -113,14 +146,13 @@ contains
       place = line_item(context%deck, line, 1_ip)
       ok = item_count(context, line) == 1
       if (.not. ok) then
-         call report_error(context%deck, place, 'E-ITEMS', 'an equation begins with the number of its terms, alone', &
-                           expected=WHAT, keyword=KEYWORD)
+         call report_error(context%deck, place, 'E-ITEMS', 'an equation begins with the number of its terms, alone', expected=WHAT)
          return
       end if
-      call get_integer(context%deck, place, WHAT, n, ok, keyword=KEYWORD)
+      call get_integer(context%deck, place, WHAT, n, ok)
       if (.not. ok .or. n > 0) return
       ok = .false.
-      call report_error(context%deck, place, 'E-VALUE', to_text(n)//' terms', expected=WHAT, keyword=KEYWORD)
+      call report_error(context%deck, place, 'E-VALUE', to_text(n)//' terms', expected=WHAT)
    end subroutine read_count
 
    !> Items of a line without empty ones at its end.
@@ -149,21 +181,20 @@ contains
          associate (item => ITEMS_A_TERM*(i - 1))
             place = line_item(context%deck, line, item + 1)
             dof_place = line_item(context%deck, line, item + 2)
-            call find_nodes(context, place, terms(i)%nodes, good(1), KEYWORD)
-            call get_integer(context%deck, dof_place, WHAT_DOF, terms(i)%dof, good(2), keyword=KEYWORD)
+            call find_nodes(context, place, terms(i)%nodes, good(1))
+            call get_integer(context%deck, dof_place, WHAT_DOF, terms(i)%dof, good(2))
             call get_real(context%deck, line_item(context%deck, line, item + 3), 'coefficient, a real', terms(i)%coefficient, &
-                          good(3), keyword=KEYWORD)
+                          good(3))
             ! where there are reference nodes dof 6 is a rotation, which the node may not have
             if (all(good) .and. terms(i)%dof > PLANE_DOFS .and. &
                 terms(i)%dof <= merge(LAST_DOF, LAST_DOF - 1_ip, size(context%model%rigid_bodies) == 0)) then
-               call report_note(context%deck, dof_place, 'N-DOF', 'the dofs 3 to 6 do not exist in the plane; this term is 0', &
-                                keyword=KEYWORD)
+               call report_note(context%deck, dof_place, 'N-DOF', 'the dofs 3 to 6 do not exist in the plane; this term is 0')
                terms(i)%dof = NO_DOF
                cycle
             end if
-            if (good(2)) call check_row_dof(context, dof_place, terms(i)%nodes, terms(i)%dof, KEYWORD, good(2))
+            if (good(2)) call check_row_dof(context, dof_place, terms(i)%nodes, terms(i)%dof, good(2))
          end associate
-         if (good(1)) call check_row_nodes(context, place, terms(i)%nodes, 'nodes of elements', KEYWORD, good(1))
+         if (good(1)) call check_row_nodes(context, place, terms(i)%nodes, 'nodes of elements', good(1))
          ok = ok .and. all(good)
       end do
    end subroutine read_term_line
@@ -194,44 +225,8 @@ contains
          if (ok) call order_like(context%refinement, terms(1)%nodes, terms(i)%nodes, ok)
       end do
       if (.not. ok) call report_error(context%deck, place, 'E-REFINE', 'the new nodes of these sets have no partners', &
-                                      expected='sets along edges of elements, in the same order', keyword=KEYWORD)
+                                      expected='sets along edges of elements, in the same order')
    end subroutine order_sets
-
-   !> The equations of terms: one for each node of the first.
-   subroutine add_equations(context, place, terms, group, weight)
-      type(build_context_t), intent(inout) :: context
-      type(token_t), intent(in) :: place
-      type(term_t), intent(in) :: terms(:)
-      integer(ip), intent(in) :: group
-      real(wp), intent(in) :: weight                   !< of the rows [L^2]
-      integer(ip) :: i, k, node, nodes(TERMS_A_DOF, size(terms))
-      real(wp) :: vectors(2, TERMS_A_DOF, size(terms)), scale
-
-      associate (n => size(terms(1)%nodes, kind=ip))
-         if (any([(size(terms(i)%nodes) /= 1 .and. size(terms(i)%nodes) /= n, i=1, size(terms, kind=ip))])) then
-            call report_error(context%deck, place, 'E-EQUATION', 'the sets of this equation have different numbers of nodes', &
-                              expected='sets of as many nodes as the first, or single nodes', keyword=KEYWORD)
-            return
-         end if
-         do k = 1, n
-            do i = 1, size(terms, kind=ip)
-               node = terms(i)%nodes(min(k, size(terms(i)%nodes, kind=ip)))
-               call row_terms(context, node, terms(i)%dof, 1.0_wp, nodes(:, i), vectors(:, :, i))
-               vectors(:, :, i) = terms(i)%coefficient*vectors(:, :, i)
-            end do
-            if (is_empty([nodes], reshape(vectors, [2_ip, size(nodes, kind=ip)]))) then
-               call report_error(context%deck, place, 'E-VALUE', 'all coefficients of this equation are 0, or cancel', &
-                                 expected='a coefficient other than 0', keyword=KEYWORD)
-               return
-            end if
-            scale = 1.0_wp                               ! rotations have another unit: the largest entry is 1 as of motions
-            if (any(terms%dof == ROTATION_DOF)) scale = 1/maxval(abs(vectors))
-            call add_nodal_value(context%model%equations, terms(1)%nodes(k), terms(1)%dof, scale*terms(1)%coefficient)
-            call add_row([nodes], reshape(scale*vectors, [2_ip, size(nodes, kind=ip)]), 0.0_wp, 0.0_wp, &
-                         weight, [ROW_EQUATION, group, context%model%equations%n], context%model%bilateral)
-         end do
-      end associate
-   end subroutine add_equations
 
    !> Whether an equation with a node in the place of its first one asks for nothing.
    logical function is_idle_at(node, terms, context)

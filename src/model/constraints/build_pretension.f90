@@ -20,7 +20,6 @@ module atrito_build_pretension
    use atrito_mesh, only: face_end
    use atrito_mesh_cut, only: cut_mesh, find_cut, mesh_cut_t
    use atrito_model, only: rigid_body_t, SURFACE_ELEMENTS
-   use atrito_node_fields, only: double_temperatures
    use atrito_references, only: find_surface
    use atrito_strings, only: to_text
    use atrito_row_dofs, only: row_weight
@@ -57,13 +56,13 @@ contains
 
       call option_text(context%deck, card, 'SURFACE', name, found, place)
       if (.not. (found .and. card%ok)) return
-      call find_surface(context, place, surface, KEYWORD)
+      call find_surface(context, place, surface)
       if (surface == 0) return
       call find_free_node(card, context, 'NODE', WHAT_NODE, node, node_place)
       if (node == 0) return
       if (is_reference(context, node)) then
-         call report_error(context%deck, node_place, 'E-NODE', 'node '//to_text(context%model%mesh%node_id(node)) &
-                           //' is that of another section, or of a rigid surface', expected=WHAT_NODE, keyword=KEYWORD)
+         call report_error(context%deck, node_place, 'E-NODE', 'node '//to_text(context%model%mesh%node_id(node))// &
+                           ' is that of another section, or of a rigid surface', expected=WHAT_NODE)
          return
       end if
       if (context%model%surfaces(surface)%kind /= SURFACE_ELEMENTS .or. context%model%surfaces(surface)%faces%n == 0) then
@@ -81,45 +80,43 @@ contains
                outward = outward + [along(2), -along(1)]
             end do
          end associate
-         call read_normal(card, context, outward, cut%normal, ok)
+         call read_normal(cut%normal)
          if (ok) call cut_along(context, place, faces, cut, ok)
          if (.not. ok) return
          cut%body = context%rigid_bodies%n + 1
          call append_rigid_body(context, rigid_body_t(surface, node, cut%size, is_section=.true.))
          context%cuts = [context%cuts, cut]
       end associate
+
+   contains
+
+      !> The data line, or the mean normal of the faces.
+      subroutine read_normal(normal)
+         real(wp), intent(out) :: normal(2)
+         character(len=*), parameter :: WHAT = 'component of the normal, a real'
+         type(token_t) :: place
+         real(wp) :: given(3)
+
+         ok = card%n_lines > 0 .or. norm2(outward) > 0.0_wp
+         normal = outward/max(norm2(outward), tiny(1.0_wp))
+         if (.not. ok) call refuse(context, card%place, 'the faces have no normal in the mean')
+         if (card%n_lines == 0) return
+         call get_reals(context%deck, context%deck%lines(card%first_line), 1_ip, WHAT, given, ok, spread(0.0_wp, 1, 3))
+         if (.not. ok) return
+         place = line_item(context%deck, context%deck%lines(card%first_line), 1_ip)
+         ok = norm2(given(:2)) > 0.0_wp .and. abs(given(3)) <= 0.0_wp
+         if (.not. ok) then
+            call report_error(context%deck, place, 'E-VALUE', 'this normal does not lie in the plane, or is 0', &
+                              expected='x and y of the normal, and 0')
+            return
+         end if
+         normal = given(:2)/maxval(abs(given(:2)))
+         normal = normal/norm2(normal)
+         if (dot_product(normal, outward) >= 0.0_wp) return
+         call report_warning(context%deck, place, 'W-CUT', 'the normal points into the elements of the surface: a positive '// &
+                             'force pushes the sides apart', expected='a normal that points away from these elements')
+      end subroutine read_normal
    end subroutine read_card
-
-   !> The data line, or the mean normal of the faces.
-   subroutine read_normal(card, context, outward, normal, ok)
-      type(card_t), intent(in) :: card
-      type(build_context_t), intent(in) :: context
-      real(wp), intent(in) :: outward(2)
-      real(wp), intent(out) :: normal(2)
-      logical, intent(out) :: ok
-      character(len=*), parameter :: WHAT = 'component of the normal, a real'
-      type(token_t) :: place
-      real(wp) :: given(3)
-
-      ok = card%n_lines > 0 .or. norm2(outward) > 0.0_wp
-      normal = outward/max(norm2(outward), tiny(1.0_wp))
-      if (.not. ok) call refuse(context, card%place, 'the faces have no normal in the mean')
-      if (card%n_lines == 0) return
-      call get_reals(context%deck, context%deck%lines(card%first_line), 1_ip, WHAT, given, ok, KEYWORD, spread(0.0_wp, 1, 3))
-      if (.not. ok) return
-      place = line_item(context%deck, context%deck%lines(card%first_line), 1_ip)
-      ok = norm2(given(:2)) > 0.0_wp .and. abs(given(3)) <= 0.0_wp
-      if (.not. ok) then
-         call report_error(context%deck, place, 'E-VALUE', 'this normal does not lie in the plane, or is 0', &
-                           expected='x and y of the normal, and 0', keyword=KEYWORD)
-         return
-      end if
-      normal = given(:2)/maxval(abs(given(:2)))
-      normal = normal/norm2(normal)
-      if (dot_product(normal, outward) >= 0.0_wp) return
-      call report_warning(context%deck, place, 'W-CUT', 'the normal points into the elements of the surface: a positive '// &
-                          'force pushes the sides apart', expected='a normal that points away from these elements', keyword=KEYWORD)
-   end subroutine read_normal
 
    !> Cuts the mesh, and gives the new nodes what the old ones have.
    subroutine cut_along(context, place, faces, cut, ok)
@@ -152,7 +149,12 @@ contains
       call cut_mesh(changes, context%model%mesh)
       call note_place(context%nodes%place, context%model%mesh%n_nodes, 0_ip)
       context%nodes%place(cut%own) = context%nodes%place(cut%other)
-      call double_temperatures(context%model%steps, cut%other)
+      do i = 1, size(context%model%steps, kind=ip)
+         associate (step => context%model%steps(i))
+            if (allocated(step%heating)) step%heating = [step%heating, step%heating(cut%other)]
+            if (allocated(step%heating_from)) step%heating_from = [step%heating_from, step%heating_from(cut%other)]
+         end associate
+      end do
       if (allocated(context%node_thickness)) context%node_thickness = [context%node_thickness, context%node_thickness(cut%other)]
       context%around = list_node_elements(context%model%mesh)
    end subroutine cut_along
@@ -163,7 +165,7 @@ contains
       character(len=*), intent(in) :: what
 
       call report_error(context%deck, place, 'E-CUT', what, expected='faces inside a body, all of the elements on one '// &
-                        'side, from outline to outline', keyword=KEYWORD)
+                        'side, from outline to outline')
    end subroutine refuse
 
    !> The rows that hold the sides together; no nodes are made any more.

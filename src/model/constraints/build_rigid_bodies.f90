@@ -53,10 +53,10 @@ contains
       surface = 0
       call option_text(context%deck, card, 'ANALYTICAL SURFACE', name, found, place)
       if (found) then
-         call find_surface(context, place, surface, 'RIGID BODY')
+         call find_surface(context, place, surface)
          if (surface > 0) found = context%model%surfaces(surface)%kind == SURFACE_SEGMENTS
          if (.not. found) call report_error(context%deck, place, 'E-SURFACE', 'surface '//name//' is made of element faces', &
-                                            expected='a surface of TYPE=SEGMENTS', keyword='RIGID BODY')
+                                            expected='a surface of TYPE=SEGMENTS')
          if (surface == 0 .or. .not. found) then
             context%rigid_undetermined = .true.
             return
@@ -64,44 +64,61 @@ contains
          context%model%surfaces(surface)%is_rigid_body = .true.
       else if (.not. any([(has_option(context%deck, card, trim(NODE_OPTIONS(i))), i=1, size(NODE_OPTIONS, kind=ip))])) then
          if (card%ok) call report_error(context%deck, card%place, 'E-OPTION-MISSING', &
-                                        '*RIGID BODY has neither a surface nor nodes', keyword='RIGID BODY', &
+                                        '*RIGID BODY has neither a surface nor nodes', &
                                         expected='ANALYTICAL SURFACE=, or REF NODE= and one of NSET=, TIE NSET=, ELSET=')
          return
       end if
-      call read_reference(card, surface, context)
+      call read_reference()
+
+   contains
+
+      !> REF NODE=: one node of no element, of one surface alone.
+      subroutine read_reference()
+         type(rigid_body_t) :: body
+         type(token_t) :: place
+         character(len=*), parameter :: WHAT = 'a node of no element that is the reference of this surface alone'
+         character(len=:), allocatable :: wrong
+         integer(ip), allocatable :: tied(:)
+         logical :: ok
+
+         call read_tied_nodes(card, context, body%name, tied, ok)
+         if (.not. (ok .and. card%ok)) return
+         if (.not. has_option(context%deck, card, 'REF NODE')) then
+            if (allocated(body%name)) call report_error(context%deck, card%place, 'E-OPTION-MISSING', &
+                                                        'nodes of a rigid body need REF NODE=, with which they move', &
+                                                        expected='*RIGID BODY, REF NODE=number, TIE NSET=name')
+            return
+         end if
+         call find_free_node(card, context, 'REF NODE', WHAT, body%node, place)
+         if (body%node == 0) return
+         wrong = what_is_wrong(body%node)
+         if (len(wrong) > 0) then
+            call report_error(context%deck, place, 'E-NODE', wrong, expected=WHAT)
+            return
+         end if
+         body%surface = surface
+         body%size = reach_of(context, surface, tied, context%model%mesh%x(:, body%node))
+         call append_rigid_body(context, body)
+      end subroutine read_reference
+
+      !> Why a node cannot be the reference of a surface; '' where it can.
+      function what_is_wrong(node) result(wrong)
+         integer(ip), intent(in) :: node
+         character(len=:), allocatable :: wrong
+
+         wrong = ''
+         associate (others => context%model%rigid_bodies(:context%rigid_bodies%n))
+            if (rigid_body_of(context, node) > 0) then
+               wrong = 'node '//to_text(context%model%mesh%node_id(node))//' is the reference node of '// &
+                       trim(merge('surface', 'set    ', others(rigid_body_of(context, node))%surface > 0))//' '// &
+                       rigid_body_name(context%model, rigid_body_of(context, node))
+            else if (surface > 0 .and. any(others%surface == surface)) then
+               wrong = 'surface '//context%model%surfaces(surface)%name//' has the reference node ' &
+                       //to_text(context%model%mesh%node_id(others(findloc(others%surface, surface, dim=1))%node))
+            end if
+         end associate
+      end function what_is_wrong
    end subroutine read_card
-
-   !> REF NODE=: one node of no element, of one surface alone.
-   subroutine read_reference(card, surface, context)
-      type(card_t), intent(in) :: card
-      integer(ip), intent(in) :: surface               !< 0: none
-      type(build_context_t), intent(inout) :: context
-      type(rigid_body_t) :: body
-      type(token_t) :: place
-      character(len=*), parameter :: WHAT = 'a node of no element that is the reference of this surface alone'
-      character(len=:), allocatable :: wrong
-      integer(ip), allocatable :: tied(:)
-      logical :: ok
-
-      call read_tied_nodes(card, context, body%name, tied, ok)
-      if (.not. (ok .and. card%ok)) return
-      if (.not. has_option(context%deck, card, 'REF NODE')) then
-         if (allocated(body%name)) call report_error(context%deck, card%place, 'E-OPTION-MISSING', &
-                                                     'nodes of a rigid body need REF NODE=, with which they move', &
-                                                     expected='*RIGID BODY, REF NODE=number, TIE NSET=name', keyword='RIGID BODY')
-         return
-      end if
-      call find_free_node(card, context, 'REF NODE', WHAT, body%node, place)
-      if (body%node == 0) return
-      wrong = what_is_wrong(context, surface, body%node)
-      if (len(wrong) > 0) then
-         call report_error(context%deck, place, 'E-NODE', wrong, expected=WHAT, keyword='RIGID BODY')
-         return
-      end if
-      body%surface = surface
-      body%size = reach_of(context, surface, tied, context%model%mesh%x(:, body%node))
-      call append_rigid_body(context, body)
-   end subroutine read_reference
 
    !> The one node that an option names; it belongs to no element.
    subroutine find_free_node(card, context, option, expected, node, place)
@@ -116,7 +133,7 @@ contains
 
       node = 0
       call option_text(context%deck, card, option, name, ok, place)
-      if (ok) call find_nodes(context, place, nodes, ok, keyword_name(card))
+      if (ok) call find_nodes(context, place, nodes, ok)
       if (.not. ok) return
       wrong = ''
       if (size(nodes) /= 1) then
@@ -126,7 +143,7 @@ contains
       else
          node = nodes(1)
       end if
-      if (node == 0) call report_error(context%deck, place, 'E-NODE', wrong, expected=expected, keyword=keyword_name(card))
+      if (node == 0) call report_error(context%deck, place, 'E-NODE', wrong, expected=expected)
    end subroutine find_free_node
 
    !> The nodes of elements that a card names, each once. The name is that of the first option; not allocated: there is none.
@@ -150,14 +167,14 @@ contains
          if (.not. found .or. .not. ok) cycle
          if (.not. allocated(name)) name = set
          if (NODE_OPTIONS(i) == 'ELSET') then
-            call find_elements(context, place, members, ok, 'RIGID BODY')
+            call find_elements(context, place, members, ok)
             do e = 1, size(members, kind=ip)
                associate (corners => context%model%mesh%nodes(:, members(e)))
                   call add_numbers(found_nodes, pack(corners, corners > 0))
                end associate
             end do
          else
-            call find_nodes(context, place, members, ok, 'RIGID BODY')
+            call find_nodes(context, place, members, ok)
             call add_numbers(found_nodes, members)
          end if
       end do
@@ -167,27 +184,8 @@ contains
       if (.not. ok .or. .not. allocated(name) .or. size(nodes) > 0) return
       ok = .false.
       call report_error(context%deck, card%place, 'E-NODE', 'no node of '//name//' belongs to an element', &
-                        expected='nodes of elements', keyword='RIGID BODY')
+                        expected='nodes of elements')
    end subroutine read_tied_nodes
-
-   !> Why a node cannot be the reference of a surface; '' where it can.
-   function what_is_wrong(context, surface, node) result(wrong)
-      type(build_context_t), intent(in) :: context
-      integer(ip), intent(in) :: surface, node
-      character(len=:), allocatable :: wrong
-
-      wrong = ''
-      associate (others => context%model%rigid_bodies(:context%rigid_bodies%n))
-         if (rigid_body_of(context, node) > 0) then
-            wrong = 'node '//to_text(context%model%mesh%node_id(node))//' is the reference node of '// &
-                    trim(merge('surface', 'set    ', others(rigid_body_of(context, node))%surface > 0))//' '// &
-                    rigid_body_name(context%model, rigid_body_of(context, node))
-         else if (surface > 0 .and. any(others%surface == surface)) then
-            wrong = 'surface '//context%model%surfaces(surface)%name//' has the reference node ' &
-                    //to_text(context%model%mesh%node_id(others(findloc(others%surface, surface, dim=1))%node))
-         end if
-      end associate
-   end function what_is_wrong
 
    !> Largest distance of a surface and of nodes from a place: by this the nodes that carry its motion stand apart.
    pure real(wp) function reach_of(context, surface, nodes, x) result(reach)
@@ -227,29 +225,26 @@ contains
 
    !> Whether a reference node can be displaced or loaded there: not along a radius nor about the axis of bodies of revolution, nor
    !> along axes of its own where it moves along one axis alone.
-   logical function can_move(context, place, node, dof, value, keyword) result(can)
+   logical function can_move(context, place, node, dof, value) result(can)
       type(build_context_t), intent(in) :: context  !< its rigid bodies and axes are read
       type(token_t), intent(in) :: place            !< of the line
       integer(ip), intent(in) :: node, dof          !< place of a reference node; 1, 2 or 6
       real(wp), intent(in) :: value                 !< of the dof; 0 is always possible but along local axes
-      character(len=*), intent(in) :: keyword       !< of the card, for `atrito help KEYWORD`
       logical :: is_section
 
       is_section = context%model%rigid_bodies(rigid_body_of(context, node))%is_section
       can = .not. (has_local_axes(context, node) .and. (is_revolved(context%model%mesh) .or. is_section))
       if (.not. can) then
-         call report_error(context%deck, place, 'E-NODE', 'reference node '//to_text(context%model%mesh%node_id(node)) &
-                           //' moves along one axis alone, and has local axes', expected='a node without *TRANSFORM', &
-                           keyword=keyword)
+         call report_error(context%deck, place, 'E-NODE', 'reference node '//to_text(context%model%mesh%node_id(node))// &
+                           ' moves along one axis alone, and has local axes', expected='a node without *TRANSFORM')
       else if (is_section) then
          can = dof == 1 .or. abs(value) <= 0.0_wp
-         if (.not. can) call report_error(context%deck, place, 'E-DOF', 'the node of a pre-tension section has no dof ' &
-                                          //to_text(dof), expected='dof 1: what the sides approach by, or the force', &
-                                          keyword=keyword)
+         if (.not. can) call report_error(context%deck, place, 'E-DOF', 'the node of a pre-tension section has no dof '// &
+                                          to_text(dof), expected='dof 1: what the sides approach by, or the force')
       else if (is_revolved(context%model%mesh) .and. dof /= 2 .and. abs(value) > 0.0_wp) then
          can = .false.
-         call report_error(context%deck, place, 'E-DOF', 'a rigid surface round an axis moves along it alone, not by dof ' &
-                           //to_text(dof), expected='dof 2 of a reference node beside CAX elements', keyword=keyword)
+         call report_error(context%deck, place, 'E-DOF', 'a rigid surface round an axis moves along it alone, not by dof '// &
+                           to_text(dof), expected='dof 2 of a reference node beside CAX elements')
       end if
    end function can_move
 

@@ -1,6 +1,6 @@
 !> *BOUNDARY: prescribed displacements, and the words ENCASTRE, XSYMM, ... that hold several dofs at once.
 module atrito_build_supports
-   use atrito_build_amplitudes, only: take_amplitude, refuse_step_options
+   use atrito_build_steps, only: take_amplitude, refuse_step_options
    use atrito_build_rigid_bodies, only: can_move, is_reference, ROTATION_DOF
    use atrito_deck, only: data_line_t, last_item, token_t, token_text, keyword_name, is_empty_token, LEVEL_MODEL
    use atrito_diagnostics, only: report_error, report_note
@@ -10,13 +10,12 @@ module atrito_build_supports
    use atrito_kinds, only: ip, wp
    use atrito_load_lists, only: condition_t, condition_list_t, add_condition, dof_slot, SLOTS
    use atrito_parameters, only: evaluate_function
-   use atrito_propagation, only: is_inherited, propagate, removes_all
+   use atrito_propagation, only: is_inherited, propagate, removes_all, open_source
    use atrito_references, only: find_nodes, in_no_element
    use atrito_refined_members, only: edge_value
    use atrito_refinement, only: edge_place, is_refined
    use atrito_growth, only: number_list_t, add_number, numbers_of
    use atrito_row_dofs, only: has_no_unknowns, WHAT_DOF, AT_REFERENCE
-   use atrito_sources, only: open_source
    use atrito_strings, only: same_name, string_t, to_text
    implicit none (type, external)
    private
@@ -115,8 +114,9 @@ contains
          end do
       end do
       if (released%n > 0 .and. .not. has_errors()) call report_note(context%deck, place, 'N-RELEASED', &
-                                        'OP=NEW lets go of what is held before *STEP, too: node '//ids_text(numbers_of(released)), &
-                                            expected='its supports again in this step, or OP=MOD, to keep them', keyword='BOUNDARY')
+                                                                    'OP=NEW lets go of what is held before *STEP, too: node '// &
+                                                                    ids_text(numbers_of(released)), &
+                                                                expected='its supports again in this step, or OP=MOD, to keep them')
    end subroutine note_released
 
    !> The cards of a step; 0: of the model.
@@ -169,17 +169,17 @@ contains
 
       if (is_support_word(context) .and. .not. is_function) then
          call find_dofs_of_word(context, held, ok)
-         if (ok) call find_nodes(context, line_token(context, 1_ip), nodes, ok, 'BOUNDARY')
+         if (ok) call find_nodes(context, line_token(context, 1_ip), nodes, ok)
          if (ok) values = spread(0.0_wp, 1, size(nodes))
       else
-         call read_values(is_function, in_model, context, nodes, held, values, ok)
+         call read_values(nodes, values, ok)
       end if
       if (.not. ok) return
       loose = has_no_unknowns(context, nodes)
       if (any(loose) .and. .not. has_errors()) then
          call report_note(context%deck, line_token(context, 1_ip), 'N-NODE', 'node '// &
                           ids_text(pack(context%model%mesh%node_id(nodes), loose))// &
-                          ' belongs to no element; the support has no effect there but on springs', keyword='BOUNDARY')
+                          ' belongs to no element; the support has no effect there but on springs')
       end if
       turns = is_reference(context, nodes)
       do dof = 1, LAST_DOF
@@ -195,53 +195,51 @@ contains
          numbered%value(:, nodes(1)) = values(1)
       end where
       numbered%n = numbered%n + 1
+
+   contains
+
+      !> Node or set, first dof[, last dof[, value]], or in the place of the value an expression in x and y.
+      subroutine read_values(nodes, values, is_ok)
+         integer(ip), allocatable, intent(out) :: nodes(:)
+         real(wp), allocatable, intent(out) :: values(:)  !< of the nodes [L], or [-]
+         logical, intent(out) :: is_ok
+         type(token_t) :: place, last_token
+         real(wp) :: value
+         integer(ip) :: first, last
+         logical :: ok(4)
+
+         is_ok = .false.
+         call find_nodes(context, line_token(context, 1_ip), nodes, ok(1))
+         call get_integer(context%deck, line_token(context, 2_ip), 'first '//WHAT_DOF, first, ok(2))
+         call get_integer(context%deck, line_token(context, 3_ip), 'last '//WHAT_DOF, last, ok(3), first)
+         place = line_token(context, 4_ip)
+         if (is_function) then
+            last_token = last_item(context%deck, open_line(context))
+            place%last = last_token%last                  ! commas belong to the expression: max(x, y)
+            value = 1.0_wp                                ! a function is not 0, whatever it is: there are no harmless dofs
+            ok(4) = .true.
+         else
+            call get_real(context%deck, place, 'displacement, a real [L]', value, ok(4), 0.0_wp)
+            if (.not. all(ok(2:))) return
+         end if
+         if (in_model .and. abs(value) > 0.0_wp) then
+            ok(4) = .false.
+            call report_error(context%deck, place, 'E-VALUE', 'a displacement other than 0 before *STEP', &
+                              expected=trim(merge('*BOUNDARY, FUNCTION in the step     ', '0 [L] here; other values in the step', &
+                                                  is_function)))
+         end if
+         if (all(ok(2:3))) ok(2) = are_dofs(context, first, last, value,.not. is_function .and. size(nodes) > 0 .and. &
+                                            all(is_reference(context, nodes)))
+         values = spread(value, 1, size(nodes))
+         if (is_function .and. ok(4)) call evaluate_function(context%deck, place, context%model%mesh%x(:, nodes), values, ok(4), &
+                                                             'BOUNDARY')
+         is_ok = all(ok)
+         if (.not. is_ok) return
+         held = .false.
+         held(first:last) = .true.
+         held(ROTATION_DOF) = last == ROTATION_DOF
+      end subroutine read_values
    end subroutine read_line
-
-   !> Node or set, first dof[, last dof[, value]], or in the place of the value an expression in x and y.
-   subroutine read_values(is_function, in_model, context, nodes, held, values, is_ok)
-      logical, intent(in) :: is_function
-      logical, intent(in) :: in_model                  !< before *STEP
-      type(build_context_t), intent(in) :: context
-      integer(ip), allocatable, intent(out) :: nodes(:)
-      logical, intent(out) :: held(LAST_DOF)           !< dofs
-      real(wp), allocatable, intent(out) :: values(:)  !< of the nodes [L], or [-]
-      logical, intent(out) :: is_ok
-      type(token_t) :: place, last_token
-      real(wp) :: value
-      integer(ip) :: first, last
-      logical :: ok(4)
-
-      is_ok = .false.
-      call find_nodes(context, line_token(context, 1_ip), nodes, ok(1), 'BOUNDARY')
-      call get_integer(context%deck, line_token(context, 2_ip), 'first '//WHAT_DOF, first, ok(2), keyword='BOUNDARY')
-      call get_integer(context%deck, line_token(context, 3_ip), 'last '//WHAT_DOF, last, ok(3), first, 'BOUNDARY')
-      place = line_token(context, 4_ip)
-      if (is_function) then
-         last_token = last_item(context%deck, open_line(context))
-         place%last = last_token%last                  ! commas belong to the expression: max(x, y)
-         value = 1.0_wp                                ! a function is not 0, whatever it is: there are no harmless dofs
-         ok(4) = .true.
-      else
-         call get_real(context%deck, place, 'displacement, a real [L]', value, ok(4), 0.0_wp, 'BOUNDARY')
-         if (.not. all(ok(2:))) return
-      end if
-      if (in_model .and. abs(value) > 0.0_wp) then
-         ok(4) = .false.
-         call report_error(context%deck, place, 'E-VALUE', 'a displacement other than 0 before *STEP', &
-                           expected=trim(merge('*BOUNDARY, FUNCTION in the step     ', '0 [L] here; other values in the step', &
-                                               is_function)), keyword='BOUNDARY')
-      end if
-      if (all(ok(2:3))) ok(2) = are_dofs(context, first, last, value,.not. is_function .and. size(nodes) > 0 .and. &
-                                         all(is_reference(context, nodes)))
-      values = spread(value, 1, size(nodes))
-      if (is_function .and. ok(4)) call evaluate_function(context%deck, place, context%model%mesh%x(:, nodes), values, ok(4), &
-                                                          'BOUNDARY')
-      is_ok = all(ok)
-      if (.not. is_ok) return
-      held = .false.
-      held(first:last) = .true.
-      held(ROTATION_DOF) = last == ROTATION_DOF
-   end subroutine read_values
 
    !> An edge of the outline all of whose nodes a card prescribes one by one is prescribed between them, too.
    subroutine prescribe_edges(context, numbered)
@@ -296,8 +294,7 @@ contains
                         is_told = .true.
                         call report_note(context%deck, line_token(context, 1_ip), 'N-REFINE', 'nodes '// &
                                          to_text(ids(fine%edge_node(1, edge)))//' and '//to_text(ids(fine%edge_node(2, edge)))// &
-                                         ' have other amplitudes; nodes of the finer mesh between them keep what they had', &
-                                         keyword='BOUNDARY')
+                                         ' have other amplitudes; nodes of the finer mesh between them keep what they had')
                      end if
                   end associate
                end do
@@ -322,18 +319,18 @@ contains
       if (turns .and. first >= 1 .and. first < ROTATION_DOF .and. last > PLANE_DOFS .and. last <= LAST_DOF .and. &
           abs(value) > 0.0_wp) then
          call report_error(context%deck, line_token(context, 2_ip), 'E-DOF', 'the dofs 3 to 5 do not exist in the plane', &
-                           expected=expected, keyword='BOUNDARY')
+                           expected=expected)
       else if (first < 1 .or. max(first, last) > LAST_DOF .or. (last > PLANE_DOFS .and. abs(value) > 0.0_wp .and. .not. turns)) then
          call report_error(context%deck, line_token(context, item), 'E-DOF', 'dof '//to_text(merge(first, last, item == 2))// &
-                           ' does not exist in the plane', expected=expected, keyword='BOUNDARY')
+                           ' does not exist in the plane', expected=expected)
       else if (last < first) then
          call report_error(context%deck, line_token(context, 3_ip), 'E-DOF', 'the last dof, '//to_text(last)// &
-                           ', is less than the first', expected=WHAT_DOF//', not less than the first', keyword='BOUNDARY')
+                           ', is less than the first', expected=WHAT_DOF//', not less than the first')
       else
          are_dofs = .true.
          if (last <= PLANE_DOFS .or. turns .and. first == ROTATION_DOF) return
-         call report_note(context%deck, line_token(context, item), 'N-DOF', 'the dofs 3 to '//trim(merge('5', '6', turns)) &
-                          //' do not exist in the plane; their value is 0', keyword='BOUNDARY')
+         call report_note(context%deck, line_token(context, item), 'N-DOF', 'the dofs 3 to '//trim(merge('5', '6', turns))// &
+                          ' do not exist in the plane; their value is 0')
       end if
    end function are_dofs
 
@@ -372,7 +369,7 @@ contains
          do i = 1, size(nodes, kind=ip)
             if (loose(i)) call note_ground(context, nodes(i), dof, value(i))
             if (is_reference(context, nodes(i))) then
-               if (.not. can_move(context, line_token(context, 1_ip), nodes(i), dof, value(i), 'BOUNDARY')) cycle
+               if (.not. can_move(context, line_token(context, 1_ip), nodes(i), dof, value(i))) cycle
             else if (loose(i) .or. dof == ROTATION_DOF) then
                cycle
             end if
@@ -430,8 +427,7 @@ contains
       associate (deck => context%deck, place => line_token(context, 1_ip))
          call report_error(deck, place, 'E-CONFLICT', 'dof '//to_text(dof)//' of node '// &
                            ids_text(context%model%mesh%node_id(nodes))//' '//what//' in '// &
-                           place_text(deck, deck%tokens(deck%lines(earlier)%first_token), place), &
-                           expected=expected, keyword='BOUNDARY')
+                           place_text(deck, deck%tokens(deck%lines(earlier)%first_token), place), expected=expected)
       end associate
    end subroutine report_conflict
 
@@ -471,11 +467,11 @@ contains
       if (.not. ok) then
          call report_error(context%deck, token, 'E-DOF', token_text(context%deck, token)// &
                            ' is neither a dof nor a word for several', expected='degree of freedom: 1 (x) or 2 (y), or a word: '// &
-                           'ENCASTRE and PINNED hold both, XSYMM dof 1, YSYMM dof 2', known=known, keyword='BOUNDARY')
+                           'ENCASTRE and PINNED hold both, XSYMM dof 1, YSYMM dof 2', known=known)
       else if (line%n_tokens > 2) then
          ok = .false.
          call report_error(context%deck, line_token(context, 3_ip), 'E-ITEMS', 'items behind '//token_text(context%deck, token), &
-                           expected='nothing: what a word holds is 0', keyword='BOUNDARY')
+                           expected='nothing: what a word holds is 0')
       end if
    end subroutine find_dofs_of_word
 

@@ -70,13 +70,13 @@ contains
       if (found .and. tie%tolerance < 0.0_wp) then
          call find_option(context%deck, card, 'POSITION TOLERANCE', option, found)
          call report_error(context%deck, option%value, 'E-VALUE', 'POSITION TOLERANCE='//to_text(tie%tolerance)//' is negative', &
-                           expected=WHAT, keyword=KEYWORD)
+                           expected=WHAT)
          return
       end if
       do i = card%first_line, card%first_line + card%n_lines - 1
          if (.not. context%deck%lines(i)%ok) cycle
-         call find_surface(context, line_item(context%deck, context%deck%lines(i), 1_ip), tie%slave, KEYWORD)
-         call find_surface(context, line_item(context%deck, context%deck%lines(i), 2_ip), tie%master, KEYWORD)
+         call find_surface(context, line_item(context%deck, context%deck%lines(i), 1_ip), tie%slave)
+         call find_surface(context, line_item(context%deck, context%deck%lines(i), 2_ip), tie%master)
          if (min(tie%slave, tie%master) == 0) cycle
          n = n + 1
          context%model%ties(n) = tie
@@ -126,7 +126,7 @@ contains
       type(token_t), intent(in) :: place
       character(len=*), intent(in) :: text, expected
 
-      call report_error(context%deck, place, 'E-TIE', text, expected=expected, keyword=KEYWORD)
+      call report_error(context%deck, place, 'E-TIE', text, expected=expected)
    end subroutine refuse
 
    subroutine check_shared_nodes(context, place, slave, master)
@@ -159,24 +159,6 @@ contains
                                     'surfaces that have their own nodes')
    end subroutine check_shared_nodes
 
-   !> Those that are left out: a part of the mean length of the master's faces, as they are in the deck.
-   subroutine set_tolerances(context)
-      type(build_context_t), intent(inout) :: context
-      integer(ip), allocatable :: own(:), nodes(:, :)
-      integer(ip) :: j
-
-      do j = 1, size(context%model%ties, kind=ip)
-         if (context%model%ties(j)%tolerance >= 0.0_wp) cycle
-         associate (faces => context%model%surfaces(context%model%ties(j)%master)%faces, mesh => context%model%mesh)
-            if (allocated(own)) deallocate (own)
-            allocate (own(faces%n))
-            call faces_of_deck(mesh, context%refinement, faces, own, nodes)
-            context%model%ties(j)%tolerance = USUAL_TOLERANCE*sum(norm2(mesh%x(:, nodes(2, :)) - mesh%x(:, nodes(1, :)), dim=1))/ &
-                                              size(nodes, 2)
-         end associate
-      end do
-   end subroutine set_tolerances
-
    !> The rows of all ties; for models without any error. Nodes of the slaves may move.
    subroutine build_ties(context)
       type(build_context_t), intent(inout) :: context  !< its model gets bilateral rows; tolerances are set
@@ -186,7 +168,7 @@ contains
       logical :: moved
 
       if (size(context%model%ties) == 0) return
-      call set_tolerances(context)
+      call set_tolerances()
       call pair_ties(context%model, points)
       from_behind = points%n == 0
       if (any(from_behind)) then
@@ -201,9 +183,9 @@ contains
          ! sides that look the same way lie one over the other with their bodies
          if (from_behind(i)) call report_warning(context%deck, context%ties(i), 'W-TIE', 'the surfaces of tie '// &
                                                  context%model%ties(i)%name//' look the same way: their bodies lie over each '// &
-                                                 'other, and are tied there', expected=IN_FRONT, keyword=KEYWORD)
+                                                 'other, and are tied there', expected=IN_FRONT)
          call judge_points(context, i, points(i))
-         if (context%model%ties(i)%adjusts) call adjust_nodes(context, i, points(i), moved)
+         if (context%model%ties(i)%adjusts) call adjust_nodes(points(i))
       end do
       if (moved) then
          call check_shapes(context%model%mesh, context)
@@ -214,6 +196,51 @@ contains
       do i = 1, size(points, kind=ip)
          call add_tie(context, i, points(i), tied_by)
       end do
+
+   contains
+
+      !> Those that are left out: a part of the mean length of the master's faces, as they are in the deck.
+      subroutine set_tolerances()
+         integer(ip), allocatable :: own(:), nodes(:, :)
+         integer(ip) :: j
+
+         do j = 1, size(context%model%ties, kind=ip)
+            if (context%model%ties(j)%tolerance >= 0.0_wp) cycle
+            associate (faces => context%model%surfaces(context%model%ties(j)%master)%faces, mesh => context%model%mesh)
+               if (allocated(own)) deallocate (own)
+               allocate (own(faces%n))
+               call faces_of_deck(mesh, context%refinement, faces, own, nodes)
+               context%model%ties(j)%tolerance = USUAL_TOLERANCE*sum(norm2(mesh%x(:, nodes(2, :)) - mesh%x(:, nodes(1, :)), &
+                                                                           dim=1))/size(nodes, 2)
+            end associate
+         end do
+      end subroutine set_tolerances
+
+      !> Moves the nodes of a slave onto the master, without strain.
+      subroutine adjust_nodes(points)
+         type(contact_points_t), intent(in) :: points
+         real(wp), parameter :: NONE = 1.0e-9_wp          !< of the face
+         real(wp) :: farthest
+         integer(ip) :: j, n
+
+         n = 0
+         farthest = 0.0_wp
+         do j = 1, points%n
+            if (.not. is_near(points%gap(j), context%model%ties(i)%tolerance, points%length(j))) cycle
+            if (abs(points%gap(j)) <= NONE*points%length(j)) cycle
+            associate (x => context%model%mesh%x(:, points%node(j)))
+               x = x + points%gap(j)*points%normal(:, j)
+            end associate
+            n = n + 1
+            farthest = max(farthest, abs(points%gap(j)))
+         end do
+         if (n == 0) return
+         moved = .true.
+         call report_note(context%deck, context%ties(i), 'N-ADJUST', to_text(n)//trim(merge(' node of the slave is  ', &
+                                                                                            ' nodes of the slave are', n == 1))// &
+                          ' moved onto the master, by '//to_text(farthest, 4)// &
+                          ' [L] at the most; ADJUST=NO leaves them where they are')
+      end subroutine adjust_nodes
    end subroutine build_ties
 
    subroutine pair_ties(model, points, from_behind)
@@ -257,41 +284,13 @@ contains
          call report_warning(context%deck, context%ties(i), 'W-TIE', to_text(far)//' of '//to_text(points%n)//' nodes of the '// &
                              'slave are farther than '//to_text(tolerance, 4)//' from the master and are not tied, the first '// &
                              'of them node '//to_text(context%model%mesh%node_id(points%node(first))), &
-                             expected='POSITION TOLERANCE=, if they are to be tied', keyword=KEYWORD)
+                             expected='POSITION TOLERANCE=, if they are to be tied')
       end if
       if (points%n > 0 .and. points%n_left_out > 0) then
          call report_note(context%deck, context%ties(i), 'N-LEFT-OUT', to_text(points%n_left_out)//' of '// &
-                          to_text(points%n_faces)//' faces of the slave face no master and are not tied', keyword=KEYWORD)
+                          to_text(points%n_faces)//' faces of the slave face no master and are not tied')
       end if
    end subroutine judge_points
-
-   !> Moves the nodes of a slave onto the master, without strain.
-   subroutine adjust_nodes(context, i, points, moved)
-      type(build_context_t), intent(inout) :: context
-      integer(ip), intent(in) :: i
-      type(contact_points_t), intent(in) :: points
-      logical, intent(inout) :: moved
-      real(wp), parameter :: NONE = 1.0e-9_wp          !< of the face
-      real(wp) :: farthest
-      integer(ip) :: j, n
-
-      n = 0
-      farthest = 0.0_wp
-      do j = 1, points%n
-         if (.not. is_near(points%gap(j), context%model%ties(i)%tolerance, points%length(j))) cycle
-         if (abs(points%gap(j)) <= NONE*points%length(j)) cycle
-         associate (x => context%model%mesh%x(:, points%node(j)))
-            x = x + points%gap(j)*points%normal(:, j)
-         end associate
-         n = n + 1
-         farthest = max(farthest, abs(points%gap(j)))
-      end do
-      if (n == 0) return
-      moved = .true.
-      call report_note(context%deck, context%ties(i), 'N-ADJUST', to_text(n)//trim(merge(' node of the slave is  ', &
-                                        ' nodes of the slave are', n == 1))//' moved onto the master, by '//to_text(farthest, 4)// &
-                       ' [L] at the most; ADJUST=NO leaves them where they are', keyword=KEYWORD)
-   end subroutine adjust_nodes
 
    !> Two rows for each point that is tied, along x and y. Where the places that they join are apart they join them as a rod does
    !> (add_lever), but in bodies of revolution, which do not turn in their section.

@@ -1,12 +1,11 @@
 !> *TRANSFORM: local axes of nodes, along which supports, forces and equations are given.
 module atrito_local_axes
    use atrito_build_context, only: build_context_t, ids_text
-   use atrito_coordinates, only: get_reals
+   use atrito_coordinates, only: get_reals, moved, turned
    use atrito_deck, only: card_t, token_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error, report_note
    use atrito_items, only: get_real, option_text, option_word
    use atrito_kinds, only: ip, wp
-   use atrito_motion, only: moved, turned
    use atrito_references, only: find_nodes
    use atrito_refinement, only: is_refined
    use atrito_strings, only: to_text
@@ -52,8 +51,7 @@ contains
                   i = findloc(context%deck%cards(:context%deck%n_cards)%name, 'TRANSFORM', dim=1, kind=ip)
                   associate (id => context%model%mesh%node_id(nodes(:2)))
                      call report_note(context%deck, context%deck%cards(i)%place, 'N-REFINE', 'the finer mesh has nodes between '// &
-                                      to_text(id(1))//' and '//to_text(id(2))//', whose axes are different, and they have none', &
-                                      keyword='TRANSFORM')
+                                      to_text(id(1))//' and '//to_text(id(2))//', whose axes are different, and they have none')
                   end associate
                end if
             end associate
@@ -72,24 +70,55 @@ contains
       integer(ip) :: i
 
       call option_text(context%deck, card, 'NSET', name, found, place)
-      call find_nodes(context, place, nodes, found, 'TRANSFORM')
+      call find_nodes(context, place, nodes, found)
       call read_points(card, context, a, b, ok)
       if (.not. (found .and. ok)) return
       if (option_word(context%deck, card, 'TYPE') == 'R') then
-         call rectangular_axes(card, context, a, b, axes, ok)
-         if (ok) call take_axes(place, nodes, spread(axes, 3, size(nodes)), context)
+         call rectangular_axes()
+         if (ok) call take_axes(spread(axes, 3, size(nodes)))
       else
          associate (x => context%model%mesh%x)
             if (any([(all(x(:, nodes(i)) == a), i=1, size(nodes, kind=ip))])) then
                call report_error(context%deck, line_item(context%deck, context%deck%lines(card%first_line), 1_ip), 'E-VALUE', &
-                                 'a node of the set stands on the axis', expected='an axis away from the nodes', &
-                                 keyword='TRANSFORM')
+                                 'a node of the set stands on the axis', expected='an axis away from the nodes')
                return
             end if
-            call take_axes(place, nodes, reshape([(axes_along(x(:, nodes(i)) - a), i=1, size(nodes, kind=ip))], &
-                                                 [2, 2, size(nodes)]), context)
+            call take_axes(reshape([(axes_along(x(:, nodes(i)) - a), i=1, size(nodes, kind=ip))], [2, 2, size(nodes)]))
          end associate
       end if
+
+   contains
+
+      !> R: local x along a, local y to the side of b.
+      subroutine rectangular_axes()
+         real(wp) :: side
+
+         ok = norm2(a) > 0.0_wp
+         axes = 0.0_wp
+         if (ok) axes = axes_along(a)
+         side = dot_product(axes(:, 2), b)
+         if (ok .and. any(b /= a)) ok = abs(side) > SAME_AXIS*norm2(b)
+         if (.not. ok) call report_error(context%deck, line_item(context%deck, context%deck%lines(card%first_line), 1_ip), &
+                                         'E-VALUE', 'these points give no axes: one is the origin, or both lie on a line with it', &
+                                         expected='a point on the local x axis, and one to its side')
+         if (side < 0.0_wp) axes(:, 2) = -axes(:, 2)
+      end subroutine rectangular_axes
+
+      subroutine take_axes(axes)
+         real(wp), intent(in) :: axes(:, :, :)
+         logical :: clashes(size(nodes))
+         integer(ip) :: i
+
+         do i = 1, size(nodes, kind=ip)
+            associate (own => context%axes(:, :, nodes(i)))
+               clashes(i) = any(own /= 0.0_wp) .and. any(abs(own - axes(:, :, i)) > SAME_AXIS)
+               own = axes(:, :, i)
+            end associate
+         end do
+         if (any(clashes)) call report_error(context%deck, place, 'E-CONFLICT', 'node '// &
+                                             ids_text(pack(context%model%mesh%node_id(nodes), clashes))// &
+                                             ' has other local axes already', expected='one *TRANSFORM for each node')
+      end subroutine take_axes
    end subroutine read_transform_card
 
    !> The two points of a card in the plane; b is a where it is left out.
@@ -106,9 +135,9 @@ contains
       integer(ip) :: item
 
       associate (line => context%deck%lines(card%first_line), deck => context%deck)
-         call get_reals(deck, line, 1_ip, WHAT, a, good(1), 'TRANSFORM')
-         call get_real(deck, line_item(deck, line, 3_ip), WHAT, z(1), good(2), 0.0_wp, 'TRANSFORM')
-         call get_reals(deck, line, 4_ip, WHAT, other, ok, 'TRANSFORM', [a, 0.0_wp])
+         call get_reals(deck, line, 1_ip, WHAT, a, good(1))
+         call get_real(deck, line_item(deck, line, 3_ip), WHAT, z(1), good(2), 0.0_wp)
+         call get_reals(deck, line, 4_ip, WHAT, other, ok, [a, 0.0_wp])
       end associate
       b = other(:2)
       z(2) = other(3)
@@ -126,7 +155,7 @@ contains
                expected = 'xb = xa and yb = ya: an axis along z'
             end if
             if (.not. ok) call report_error(context%deck, line_item(context%deck, context%deck%lines(card%first_line), item), &
-                                       'E-VALUE', 'the scene is plane: these axes leave it', expected=expected, keyword='TRANSFORM')
+                                            'E-VALUE', 'the scene is plane: these axes leave it', expected=expected)
          end associate
       end if
       if (.not. ok .or. card%scope == 0) return
@@ -141,26 +170,6 @@ contains
       end associate
    end subroutine read_points
 
-   !> R: local x along a, local y to the side of b.
-   subroutine rectangular_axes(card, context, a, b, axes, ok)
-      type(card_t), intent(in) :: card
-      type(build_context_t), intent(in) :: context
-      real(wp), intent(in) :: a(2), b(2)
-      real(wp), intent(out) :: axes(2, 2)
-      logical, intent(out) :: ok
-      real(wp) :: side
-
-      ok = norm2(a) > 0.0_wp
-      axes = 0.0_wp
-      if (ok) axes = axes_along(a)
-      side = dot_product(axes(:, 2), b)
-      if (ok .and. any(b /= a)) ok = abs(side) > SAME_AXIS*norm2(b)
-      if (.not. ok) call report_error(context%deck, line_item(context%deck, context%deck%lines(card%first_line), 1_ip), 'E-VALUE', &
-                                      'these points give no axes: one is the origin, or both lie on a line with it', &
-                                      expected='a point on the local x axis, and one to its side', keyword='TRANSFORM')
-      if (side < 0.0_wp) axes(:, 2) = -axes(:, 2)
-   end subroutine rectangular_axes
-
    !> A direction, and that turned by +90 degrees.
    pure function axes_along(direction) result(axes)
       real(wp), intent(in) :: direction(2)
@@ -169,26 +178,6 @@ contains
       axes(:, 1) = direction/norm2(direction)
       axes(:, 2) = [-axes(2, 1), axes(1, 1)]
    end function axes_along
-
-   subroutine take_axes(place, nodes, axes, context)
-      type(token_t), intent(in) :: place
-      integer(ip), intent(in) :: nodes(:)
-      real(wp), intent(in) :: axes(:, :, :)
-      type(build_context_t), intent(inout) :: context
-      logical :: clashes(size(nodes))
-      integer(ip) :: i
-
-      do i = 1, size(nodes, kind=ip)
-         associate (own => context%axes(:, :, nodes(i)))
-            clashes(i) = any(own /= 0.0_wp) .and. any(abs(own - axes(:, :, i)) > SAME_AXIS)
-            own = axes(:, :, i)
-         end associate
-      end do
-      if (any(clashes)) call report_error(context%deck, place, 'E-CONFLICT', 'node '// &
-                                          ids_text(pack(context%model%mesh%node_id(nodes), clashes))// &
-                                          ' has other local axes already', expected='one *TRANSFORM for each node', &
-                                          keyword='TRANSFORM')
-   end subroutine take_axes
 
    !> Whether a node has axes of its own, by *TRANSFORM.
    pure logical function has_local_axes(context, node)

@@ -54,7 +54,7 @@ contains
          if (ok .and. pair%adjust < 0.0_wp) call report_error(context%deck, option%value, 'E-VALUE', 'ADJUST = '// &
                                                               to_text(pair%adjust), expected=WHAT, keyword='CONTACT PAIR')
       else
-         call find_nodes(context, option%value, nodes, ok, 'CONTACT PAIR')
+         call find_nodes(context, option%value, nodes, ok)
          if (ok) pair%adjust_set = find_set(context%model%node_sets, text)
          if (.not. ok .or. pair%adjust_set > 0) return
          call grow_set(context%model%node_sets, text, nodes)    ! of an element set, or a place of a block

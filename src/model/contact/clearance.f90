@@ -75,8 +75,7 @@ contains
          k = of_pair(one%pair)
          if (k > 0) then
             call report_error(context%deck, one%place, 'E-TWICE', 'this pair has its clearance already, in '// &
-                              place_text(context%deck, list(k)%place, one%place), expected='one *CLEARANCE a pair', &
-                              keyword='CLEARANCE')
+                              place_text(context%deck, list(k)%place, one%place), expected='one *CLEARANCE a pair')
             cycle
          end if
          n = n + 1
@@ -106,8 +105,7 @@ contains
       call option_text(context%deck, card, 'SLAVE', names(1)%s, found(1), places(1))
       call option_text(context%deck, card, 'MASTER', names(2)%s, found(2), places(2))
       one%place = places(1)
-      if (all(found)) call find_pair(context, pairs, names, places, 'SLAVE='//names(2)%s//', MASTER='//names(1)%s, 'CLEARANCE', &
-                                     one%pair)
+      if (all(found)) call find_pair(context, pairs, names, places, 'SLAVE='//names(2)%s//', MASTER='//names(1)%s, one%pair)
       has_table = has_option(context%deck, card, 'TABULAR')
       call option_real(context%deck, card, 'VALUE', WHAT, one%value, one%is_uniform)
       one%is_function = has_option(context%deck, card, 'FUNCTION')
@@ -115,8 +113,7 @@ contains
       if (ok .and. count([has_table, one%is_uniform, one%is_function]) /= 1) then
          ok = .false.
          call report_error(context%deck, card%place, 'E-CONFLICT', '*CLEARANCE without VALUE, TABULAR or FUNCTION, or with two '// &
-                           'of them', expected='VALUE=; or TABULAR and data lines node, gap; or FUNCTION and an expression', &
-                           keyword='CLEARANCE')
+                           'of them', expected='VALUE=; or TABULAR and data lines node, gap; or FUNCTION and an expression')
       end if
       ok = ok .and. one%pair > 0
       if (.not. ok) return
@@ -136,10 +133,38 @@ contains
          return
       end if
       do i = card%first_line, card%first_line + card%n_lines - 1
-         call read_line(context%deck%lines(i), context, of_slave, nodes, values, ok)
+         call read_line(context%deck%lines(i), nodes)
       end do
       one%node = numbers_of(nodes)
       if (nodes%n > 0) one%values = values(:nodes%n)
+
+   contains
+
+      !> node or set, gap.
+      subroutine read_line(line, all_nodes)
+         type(data_line_t), intent(in) :: line
+         type(number_list_t), intent(inout) :: all_nodes  !< of the lines so far
+         integer(ip), allocatable :: nodes(:)
+         real(wp) :: gap
+         integer(ip) :: i
+         logical :: good(2)
+
+         ok = ok .and. line%ok
+         if (.not. line%ok) return
+         call find_nodes(context, line_item(context%deck, line, 1_ip), nodes, good(1))
+         call get_real(context%deck, line_item(context%deck, line, 2_ip), WHAT, gap, good(2))
+         ok = ok .and. all(good)
+         if (.not. all(good)) return
+         nodes = pack(nodes, [(find_id(of_slave, nodes(i)) > 0, i=1, size(nodes, kind=ip))])
+         if (size(nodes) == 0) then
+            ok = .false.
+            call report_error(context%deck, line_item(context%deck, line, 1_ip), 'E-NODE', 'no node of the slave is meant', &
+                              expected='a node of the slave, or a set with nodes of it')
+         end if
+         call make_room(values, all_nodes%n, all_nodes%n + size(nodes, kind=ip))
+         values(all_nodes%n + 1:all_nodes%n + size(nodes)) = gap
+         call add_numbers(all_nodes, nodes)
+      end subroutine read_line
    end subroutine read_card
 
    !> An expression in x and y, evaluated at the nodes of the slave.
@@ -161,36 +186,6 @@ contains
       allocate (one%values(size(nodes)))
       call evaluate_function(context%deck, expression, context%model%mesh%x(:, nodes), one%values, ok, 'CLEARANCE')
    end subroutine read_function
-
-   !> node or set, gap.
-   subroutine read_line(line, context, of_slave, all_nodes, values, ok)
-      type(data_line_t), intent(in) :: line
-      type(build_context_t), intent(in) :: context
-      type(id_map_t), intent(in) :: of_slave           !< its nodes
-      type(number_list_t), intent(inout) :: all_nodes  !< of the lines so far
-      real(wp), allocatable, intent(inout) :: values(:) !< their gaps [L]; as many are in use
-      logical, intent(inout) :: ok
-      integer(ip), allocatable :: nodes(:)
-      real(wp) :: gap
-      integer(ip) :: i
-      logical :: good(2)
-
-      ok = ok .and. line%ok
-      if (.not. line%ok) return
-      call find_nodes(context, line_item(context%deck, line, 1_ip), nodes, good(1), 'CLEARANCE')
-      call get_real(context%deck, line_item(context%deck, line, 2_ip), WHAT, gap, good(2), keyword='CLEARANCE')
-      ok = ok .and. all(good)
-      if (.not. all(good)) return
-      nodes = pack(nodes, [(find_id(of_slave, nodes(i)) > 0, i=1, size(nodes, kind=ip))])
-      if (size(nodes) == 0) then
-         ok = .false.
-         call report_error(context%deck, line_item(context%deck, line, 1_ip), 'E-NODE', 'no node of the slave is meant', &
-                           expected='a node of the slave, or a set with nodes of it', keyword='CLEARANCE')
-      end if
-      call make_room(values, all_nodes%n, all_nodes%n + size(nodes, kind=ip))
-      values(all_nodes%n + 1:all_nodes%n + size(nodes)) = gap
-      call add_numbers(all_nodes, nodes)
-   end subroutine read_line
 
    !> Gives the points of the pairs their gaps.
    subroutine set_clearances(list, n_nodes, refinement, points)
@@ -289,17 +284,16 @@ contains
                if (.not. context%deck%lines(k)%ok) cycle
                do j = 1, 2                             ! slave, master
                   places(j) = line_item(context%deck, context%deck%lines(k), j)
-                  call get_name(context%deck, places(j), 'name of a surface', names(j)%s, ok(j), SHRINK_KEYWORD)
+                  call get_name(context%deck, places(j), 'name of a surface', names(j)%s, ok(j))
                end do
                if (.not. all(ok)) cycle
                one = interference_t(step=card%step, place=places(1))
-               call find_pair(context, pairs, names, places, names(2)%s//', '//names(1)%s, SHRINK_KEYWORD, one%pair)
+               call find_pair(context, pairs, names, places, names(2)%s//', '//names(1)%s, one%pair)
                if (one%pair == 0) cycle
                twin = of_pair(one%pair)
                if (twin > 0) then
                   call report_error(context%deck, one%place, 'E-TWICE', 'the overlap of this pair is resolved already, in '// &
-                                    place_text(context%deck, list(twin)%place, one%place), expected='each pair in one step', &
-                                    keyword=SHRINK_KEYWORD)
+                                    place_text(context%deck, list(twin)%place, one%place), expected='each pair in one step')
                   cycle
                end if
                n = n + 1
@@ -323,12 +317,11 @@ contains
       call find_option(context%deck, card, 'AMPLITUDE', option, found)
       if (.not. has_shrink) then
          call report_error(context%deck, card%place, 'E-NOT-BUILT', 'an interference that is given is not built', &
-                           expected='SHRINK, which resolves the initial overlap over the step; *CLEARANCE, VALUE= gives it', &
-                           keyword=SHRINK_KEYWORD)
+                           expected='SHRINK, which resolves the initial overlap over the step; *CLEARANCE, VALUE= gives it')
       else if (found) then
          has_shrink = .false.
          call report_error(context%deck, option%name, 'E-CONFLICT', 'SHRINK resolves the overlap linearly over the step', &
-                           expected='SHRINK without AMPLITUDE', keyword=SHRINK_KEYWORD)
+                           expected='SHRINK without AMPLITUDE')
       end if
    end function has_shrink
 
@@ -352,7 +345,7 @@ contains
          associate (gap => context%model%points(list(i)%pair)%gap)
             if (.not. any(gap < 0.0_wp)) call report_note(context%deck, list(i)%place, 'N-NO-OVERLAP', &
                                                           'this pair has no initial overlap; its least gap is '// &
-                                                          to_text(minval(gap), 4)//' [L]', keyword=SHRINK_KEYWORD)
+                                                          to_text(minval(gap), 4)//' [L]')
          end associate
       end do
    end subroutine set_interferences
@@ -393,30 +386,29 @@ contains
    end function pair_of
 
    !> The pair of a slave and a master. What is wrong is reported at the place of the name.
-   subroutine find_pair(context, pairs, names, places, turned, keyword, pair)
+   subroutine find_pair(context, pairs, names, places, turned, pair)
       type(build_context_t), intent(in) :: context     !< names of its surfaces are read
       type(pair_index_t), intent(in) :: pairs          !< of index_pairs
       type(string_t), intent(in) :: names(2)           !< slave and master, as the deck has them
       type(token_t), intent(in) :: places(2)           !< of the two names
       character(len=*), intent(in) :: turned           !< how it should read if the surfaces are the other way round
-      character(len=*), intent(in) :: keyword          !< of the card, for `atrito help KEYWORD`
       integer(ip), intent(out) :: pair                 !< place in model%pairs; 0: none
       integer(ip) :: surface(2), i
 
       pair = 0
       do i = 1, 2
          surface(i) = find_name(context%surface_names, names(i)%s)
-         if (surface(i) == 0) call report_unknown(context, places(i), 'surface', 'E-SURFACE', context%surface_names, keyword)
+         if (surface(i) == 0) call report_unknown(context, places(i), 'surface', 'E-SURFACE', context%surface_names)
       end do
       if (any(surface == 0)) return
       pair = pair_of(context, pairs, surface)
       if (pair > 0 .or. .not. pairs%is_complete) return
       if (pair_of(context, pairs, surface(2:1:-1)) > 0) then
          call report_error(context%deck, places(1), 'E-PAIR', names(1)%s//' is the master of this pair, '//names(2)%s// &
-                           ' the slave', expected=turned, keyword=keyword)
+                           ' the slave', expected=turned)
       else
-         call report_error(context%deck, places(1), 'E-PAIR', 'no *CONTACT PAIR has the slave '//names(1)%s// &
-                           ' and the master '//names(2)%s, expected='the surfaces of one *CONTACT PAIR', keyword=keyword)
+         call report_error(context%deck, places(1), 'E-PAIR', 'no *CONTACT PAIR has the slave '//names(1)%s//' and the master '// &
+                           names(2)%s, expected='the surfaces of one *CONTACT PAIR')
       end if
    end subroutine find_pair
 

@@ -52,7 +52,7 @@ contains
                if (.not. follows_polygon(stiffness, most_fineness(mesh, surfaces(pair%slave)%faces, surfaces(pair%master)%faces), &
                                          angle)) cycle
             end if
-            call compare_sides(context%model, i, fineness, angle, is_whole)
+            call compare_sides(context%model)
             text = 'the slave '//surfaces(pair%slave)%name//' is '
             if (stiffness >= STIFFER .and. stiffness*(fineness - 1) >= FINER) then
                text = text//to_text(stiffness, 2)//' times as stiff as '//surfaces(pair%master)%name//' and '// &
@@ -83,6 +83,30 @@ contains
             end if
          end associate
       end do
+
+   contains
+
+      !> Distances of the slave's points over one of the nodes of the master that they face, and the angle between faces of it
+      !> there.
+      subroutine compare_sides(model)
+         type(model_t), intent(in) :: model
+         type(contact_points_t), allocatable :: points(:)
+         logical, dimension(model%mesh%n_nodes) :: is_faced, is_on_master
+         integer(ip) :: k
+
+         associate (pair => model%pairs(i), faces => model%surfaces(model%pairs(i)%master)%faces)
+            call pair_surfaces(model, [pair%slave], [pair%master], [pair%quadrature], points)
+            is_faced = .false.
+            is_on_master = .false.
+            if (points(1)%n > 0) is_faced(points(1)%entry) = .true.
+            do k = 1, faces%n
+               is_on_master(face_nodes(model%mesh, faces%element(k), faces%face(k))) = .true.
+            end do
+            fineness = real(points(1)%n - 1, wp)/max(count(is_faced .and. is_on_master) - 1, 1)
+            angle = polygon_angle(model%mesh, faces, is_faced)
+            is_whole = all(is_faced .or. .not. is_on_master)
+         end associate
+      end subroutine compare_sides
    end subroutine choose_roles
 
    !> Whether pressures of a slave follow the straight faces of a curved master.
@@ -140,31 +164,6 @@ contains
          end do
       end function spacings
    end function most_fineness
-
-   !> Distances of the slave's points over one of the nodes of the master that they face, and the angle between faces of it there.
-   subroutine compare_sides(model, i, fineness, angle, is_whole)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: i                     !< the pair
-      real(wp), intent(out) :: fineness                !< 0: the slave faces nothing
-      real(wp), intent(out) :: angle                   !< of polygon_angle [rad]
-      logical, intent(out) :: is_whole                 !< all of the master is faced: as the slave it has no end between its nodes
-      type(contact_points_t), allocatable :: points(:)
-      logical, dimension(model%mesh%n_nodes) :: is_faced, is_on_master
-      integer(ip) :: k
-
-      associate (pair => model%pairs(i), faces => model%surfaces(model%pairs(i)%master)%faces)
-         call pair_surfaces(model, [pair%slave], [pair%master], [pair%quadrature], points)
-         is_faced = .false.
-         is_on_master = .false.
-         if (points(1)%n > 0) is_faced(points(1)%entry) = .true.
-         do k = 1, faces%n
-            is_on_master(face_nodes(model%mesh, faces%element(k), faces%face(k))) = .true.
-         end do
-         fineness = real(points(1)%n - 1, wp)/max(count(is_faced .and. is_on_master) - 1, 1)
-         angle = polygon_angle(model%mesh, faces, is_faced)
-         is_whole = all(is_faced .or. .not. is_on_master)
-      end associate
-   end subroutine compare_sides
 
    !> The master can be the slave, and nothing else in the deck hangs on who it is.
    logical function can_exchange(model, i, clearances) result(can)

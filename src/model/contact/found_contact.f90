@@ -11,7 +11,7 @@
 module atrito_found_contact
    use atrito_bodies, only: bodies_t, find_bodies
    use atrito_body_names, only: name_bodies
-   use atrito_contact_rules, only: contact_rules_t, add_rule, last_rule, sort_rules, ANY_BODY
+   use atrito_build_contact, only: contact_rules_t, add_rule, last_rule, sort_rules, ANY_BODY
    use atrito_diagnostics, only: report_note, report_warning
    use atrito_build_context, only: build_context_t, keep_token
    use atrito_face_geometry, only: face_arc_length
@@ -69,13 +69,72 @@ contains
       call choose_parties(context%model, rules, search)
       call choose_slaves(context%model, search)
       call make_chains(search, chains)
-      call make_pairs(rules, search, chains, context)
+      call make_pairs()
       if (search%n_partly > 0) call report_note(context%deck, rules%place, 'N-PARTLY', 'faces that look at another body with a '// &
                                                 'part only are left out: '//to_text(search%n_partly), keyword='CONTACT')
       if (chains%n > 0) return
       if (search%n_excluded > 0 .and. size(context%model%pairs) + size(context%model%ties) > 0) return
       call report_warning(context%deck, rules%place, 'W-CONTACT', 'no bodies that are included look at each other', &
                           expected='faces no farther apart than half their length, or than DISTANCE= [L]', keyword='CONTACT')
+
+   contains
+
+      !> A pair for each chain, with a surface for its slave; the outline of a body is the master of all pairs that need it.
+      subroutine make_pairs()
+         type(surface_t), allocatable :: surfaces(:)
+         type(pair_t) :: pairs(chains%n)
+         integer(ip) :: surface_of(size(search%masters)), number(chains%n), order(chains%n), default_law, i, n
+         integer(lp) :: key(chains%n)
+
+         default_law = 0
+         if (any(search%is_slave .and. search%law == 0)) then
+            context%model%interactions = [context%model%interactions, interaction_t(name='(default)')]
+            default_law = size(context%model%interactions, kind=ip)
+            call keep_token(context%interactions, default_law, rules%place)
+            call report_note(context%deck, rules%place, 'N-DEFAULT-LAW', &
+                             'no interaction is assigned to some of the contact that '// &
+                             'is found: it is hard and without friction', keyword='CONTACT PROPERTY ASSIGNMENT')
+         end if
+         n = size(context%model%surfaces, kind=ip)
+         allocate (surfaces(n + chains%n + search%bodies%n))
+         surfaces(:n) = context%model%surfaces
+         surface_of = 0
+         surface_of(search%bodies%n + 1:) = search%rigid
+         ! of the chains of the same slave and the same other party the first, the second, ...
+         associate (faces => chains%face(chains%first(:chains%n)))
+            key = int(search%outlines%body(faces), lp)*(size(search%masters, kind=lp) + 1_lp) + int(search%other(faces), lp)
+         end associate
+         order = sorted_places(key)
+         number = 1
+         do i = 2, chains%n
+            if (key(order(i)) == key(order(i - 1))) number(order(i)) = number(order(i - 1)) + 1
+         end do
+         do i = 1, chains%n
+            associate (first => chains%face(chains%first(i)), faces => chains%face(chains%first(i):chains%first(i + 1) - 1))
+               n = n + 1
+               surfaces(n)%name = search%bodies%list(search%outlines%body(first))%name
+               if (number(i) > 1) surfaces(n)%name = surfaces(n)%name//' ('//to_text(number(i))//')'
+               surfaces(n)%faces = some_faces(search, faces)
+               pairs(i)%slave = n
+               associate (party => search%other(first))
+                  if (surface_of(party) == 0) then
+                     n = n + 1
+                     surfaces(n)%name = search%bodies%list(party)%name
+                     surfaces(n)%faces = outline_of(search, party)
+                     surface_of(party) = n
+                  end if
+                  pairs(i)%master = surface_of(party)
+               end associate
+               pairs(i)%interaction = merge(search%law(first), default_law, search%law(first) > 0)
+            end associate
+            pairs(i)%outline = chains%outline(i)
+            pairs(i)%quadrature = rules%quadrature
+            call keep_token(context%slaves, size(context%model%pairs, kind=ip) + i, rules%place)
+            call keep_token(context%masters, size(context%model%pairs, kind=ip) + i, rules%place)
+         end do
+         context%model%surfaces = surfaces(:n)
+         context%model%pairs = [context%model%pairs, pairs]
+      end subroutine make_pairs
    end subroutine find_contact
 
    !> The bodies with their outlines, the rigid surfaces that are included, and the surfaces of rules to which each face belongs.
@@ -348,65 +407,5 @@ contains
 
       is_same_pair = search%other(a) == search%other(b) .and. search%law(a) == search%law(b)
    end function is_same_pair
-
-   !> A pair for each chain, with a surface for its slave; the outline of a body is the master of all pairs that need it.
-   subroutine make_pairs(rules, search, chains, context)
-      type(contact_rules_t), intent(in) :: rules
-      type(search_t), intent(in) :: search
-      type(chains_t), intent(in) :: chains
-      type(build_context_t), intent(inout) :: context
-      type(surface_t), allocatable :: surfaces(:)
-      type(pair_t) :: pairs(chains%n)
-      integer(ip) :: surface_of(size(search%masters)), number(chains%n), order(chains%n), default_law, i, n
-      integer(lp) :: key(chains%n)
-
-      default_law = 0
-      if (any(search%is_slave .and. search%law == 0)) then
-         context%model%interactions = [context%model%interactions, interaction_t(name='(default)')]
-         default_law = size(context%model%interactions, kind=ip)
-         call keep_token(context%interactions, default_law, rules%place)
-         call report_note(context%deck, rules%place, 'N-DEFAULT-LAW', 'no interaction is assigned to some of the contact that '// &
-                          'is found: it is hard and without friction', keyword='CONTACT PROPERTY ASSIGNMENT')
-      end if
-      n = size(context%model%surfaces, kind=ip)
-      allocate (surfaces(n + chains%n + search%bodies%n))
-      surfaces(:n) = context%model%surfaces
-      surface_of = 0
-      surface_of(search%bodies%n + 1:) = search%rigid
-      ! of the chains of the same slave and the same other party the first, the second, ...
-      associate (faces => chains%face(chains%first(:chains%n)))
-         key = int(search%outlines%body(faces), lp)*(size(search%masters, kind=lp) + 1_lp) + int(search%other(faces), lp)
-      end associate
-      order = sorted_places(key)
-      number = 1
-      do i = 2, chains%n
-         if (key(order(i)) == key(order(i - 1))) number(order(i)) = number(order(i - 1)) + 1
-      end do
-      do i = 1, chains%n
-         associate (first => chains%face(chains%first(i)), faces => chains%face(chains%first(i):chains%first(i + 1) - 1))
-            n = n + 1
-            surfaces(n)%name = search%bodies%list(search%outlines%body(first))%name
-            if (number(i) > 1) surfaces(n)%name = surfaces(n)%name//' ('//to_text(number(i))//')'
-            surfaces(n)%faces = some_faces(search, faces)
-            pairs(i)%slave = n
-            associate (party => search%other(first))
-               if (surface_of(party) == 0) then
-                  n = n + 1
-                  surfaces(n)%name = search%bodies%list(party)%name
-                  surfaces(n)%faces = outline_of(search, party)
-                  surface_of(party) = n
-               end if
-               pairs(i)%master = surface_of(party)
-            end associate
-            pairs(i)%interaction = merge(search%law(first), default_law, search%law(first) > 0)
-         end associate
-         pairs(i)%outline = chains%outline(i)
-         pairs(i)%quadrature = rules%quadrature
-         call keep_token(context%slaves, size(context%model%pairs, kind=ip) + i, rules%place)
-         call keep_token(context%masters, size(context%model%pairs, kind=ip) + i, rules%place)
-      end do
-      context%model%surfaces = surfaces(:n)
-      context%model%pairs = [context%model%pairs, pairs]
-   end subroutine make_pairs
 
 end module atrito_found_contact

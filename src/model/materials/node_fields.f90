@@ -12,17 +12,16 @@ module atrito_node_fields
    use atrito_items, only: get_real
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
-   use atrito_model, only: step_t
    use atrito_growth, only: number_list_t, add_number, numbers_of
    use atrito_plane_state, only: TAPERED_STATE, IS_TAPERED
    use atrito_propagation, only: removes_all
-   use atrito_read_elastic, only: get_positive
+   use atrito_coordinates, only: get_positive
    use atrito_references, only: find_nodes, in_no_element
    use atrito_refinement, only: map_element, refinement_t
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: read_temperatures, read_node_thickness, refine_node_fields, taper_elements, check_temperatures, double_temperatures
+   public :: read_temperatures, read_node_thickness, refine_node_fields, taper_elements, check_temperatures
 
    !> Two values of one node are the same when they differ by less than this part of them: expressions are rounded.
    real(wp), parameter :: SAME_VALUE = 1.0e-12_wp
@@ -102,7 +101,6 @@ contains
       type(build_context_t), intent(in) :: context
       type(temperatures_t), intent(inout) :: temperatures
       integer, parameter :: FEW = 6, ALL_DIGITS = 15
-      character(len=:), allocatable :: keyword
       type(token_t) :: place
       integer(ip), allocatable :: nodes(:), clashes(:)
       logical, allocatable :: loose(:)
@@ -110,17 +108,16 @@ contains
       integer :: digits
       logical :: ok(2)
 
-      keyword = trim(temperatures%keyword)
       associate (deck => context%deck, node_id => context%model%mesh%node_id)
          place = line_item(deck, line, 1_ip)
-         call find_nodes(context, deck%tokens(line%first_token), nodes, ok(1), keyword)
-         call get_real(deck, line_item(deck, line, 2_ip), 'temperature, a real', value, ok(2), keyword=keyword)
+         call find_nodes(context, deck%tokens(line%first_token), nodes, ok(1))
+         call get_real(deck, line_item(deck, line, 2_ip), 'temperature, a real', value, ok(2))
          if (.not. all(ok)) return
          temperatures%last = line%first_token
          loose = in_no_element(context, nodes)
          if (any(loose) .and. .not. has_errors()) then
-            call report_note(deck, place, 'N-NODE', 'node '//ids_text(pack(node_id(nodes), loose)) &
-                             //' belongs to no element; the temperature has no effect there', keyword=keyword)
+            call report_note(deck, place, 'N-NODE', 'node '//ids_text(pack(node_id(nodes), loose))// &
+                             ' belongs to no element; the temperature has no effect there')
          end if
          call put_value(nodes, value, line%first_token, context%open%first_token, temperatures%token, temperatures%value, clashes)
          if (size(clashes) == 0) return
@@ -128,8 +125,7 @@ contains
             digits = merge(ALL_DIGITS, FEW, to_text(value, FEW) == to_text(other, FEW))
             call report_error(deck, place, 'E-CONFLICT', 'the temperature of node '//ids_text(node_id(clashes))//' is '// &
                               to_text(value, digits)//' here but '//to_text(other, digits)//' in '// &
-                              place_text(deck, earlier, deck%tokens(line%first_token)), &
-                              expected='one temperature for each node', keyword=keyword)
+                              place_text(deck, earlier, deck%tokens(line%first_token)), expected='one temperature for each node')
          end associate
       end associate
    end subroutine read_line
@@ -182,11 +178,11 @@ contains
          end do
       end associate
       if (forgotten%n == 0) return
-      call report_warning(context%deck, context%deck%tokens(temperatures%last), 'W-TEMPERATURE', 'node ' &
-                          //ids_text(numbers_of(forgotten))//' in the middle of a side has no temperature, though both ends' &
-                          //' have one: it keeps '//trim(merge('0                      ', 'its initial temperature', &
-                                                               temperatures%keyword == 'INITIAL CONDITIONS')), &
-                          expected='a set with the nodes in the middle of sides, too', keyword=trim(temperatures%keyword))
+      call report_warning(context%deck, context%deck%tokens(temperatures%last), 'W-TEMPERATURE', 'node '// &
+                          ids_text(numbers_of(forgotten))//' in the middle of a side has no temperature, though both ends'// &
+                          ' have one: it keeps '//trim(merge('0                      ', 'its initial temperature', &
+                                                             temperatures%keyword == 'INITIAL CONDITIONS')), &
+                          expected='a set with the nodes in the middle of sides, too')
    end subroutine warn_of_middles
 
    !> The same fields on the refined mesh: they go the way of the coordinates.
@@ -224,18 +220,6 @@ contains
       end do
       values = value(1, :)
    end subroutine refine_field
-
-   !> New nodes behind the others, as warm as those that they double.
-   pure subroutine double_temperatures(steps, nodes)
-      type(step_t), intent(inout) :: steps(:)    !< heating of each gets longer
-      integer(ip), intent(in) :: nodes(:)        !< places of those that are doubled
-      integer(ip) :: i
-
-      do i = 1, size(steps, kind=ip)
-         if (allocated(steps(i)%heating)) steps(i)%heating = [steps(i)%heating, steps(i)%heating(nodes)]
-         if (allocated(steps(i)%heating_from)) steps(i)%heating_from = [steps(i)%heating_from, steps(i)%heating_from(nodes)]
-      end do
-   end subroutine double_temperatures
 
    !> What grows warmer and has no *EXPANSION is reported; where nothing expands there are no temperatures.
    subroutine check_temperatures(context)
@@ -288,9 +272,8 @@ contains
             do k = card%first_line, card%first_line + card%n_lines - 1
                if (.not. deck%lines(k)%ok) cycle
                associate (line => deck%lines(k), first => deck%tokens(deck%lines(k)%first_token))
-                  call find_nodes(context, first, nodes, ok(1), THICKNESS)
-                  call get_positive(deck, line_item(deck, line, 2_ip), 'thickness, a real > 0 [L]', 'the thickness ', value, &
-                                    ok(2), THICKNESS)
+                  call find_nodes(context, first, nodes, ok(1))
+                  call get_positive(deck, line_item(deck, line, 2_ip), 'thickness, a real > 0 [L]', 'the thickness ', value, ok(2))
                   context%thickness_undetermined = context%thickness_undetermined .or. .not. all(ok)
                   if (.not. all(ok)) cycle
                   call put_value(nodes, value, line%first_token, 0_ip, given, context%node_thickness, clashes)
@@ -298,7 +281,7 @@ contains
                                                            ids_text(context%model%mesh%node_id(clashes))// &
                                                            ' has another thickness in '// &
                                                            place_text(deck, deck%tokens(given(clashes(1))), first), &
-                                                           expected='one thickness for each node', keyword=THICKNESS)
+                                                           expected='one thickness for each node')
                end associate
             end do
             context%thickness_undetermined = context%thickness_undetermined .or. .not. card%ok
@@ -317,8 +300,7 @@ contains
       if (.not. any(context%model%sections%is_tapered)) then
          i = findloc(context%deck%cards(:context%deck%n_cards)%name, THICKNESS, dim=1, kind=ip)
          if (i > 0 .and. .not. has_errors()) call report_note(context%deck, context%deck%cards(i)%place, 'N-THICKNESS', &
-                                                    'no *SOLID SECTION has NODAL THICKNESS: the thickness of nodes has no effect', &
-                                                              keyword=THICKNESS)
+                                                      'no *SOLID SECTION has NODAL THICKNESS: the thickness of nodes has no effect')
          return
       end if
       if (.not. allocated(context%node_thickness)) allocate (context%node_thickness(context%model%mesh%n_nodes), source=0.0_wp)

@@ -81,7 +81,7 @@ contains
             call report_warning(context%deck, names(1), 'W-BLOCK', to_text(n)//' nodes of this block lie on nodes of '// &
                                 other%name//', a part of the same body, but are not shared: a crack', &
                                 expected='the data line MERGE, '//token_text(context%deck, names(1))//', '//other%name// &
-                                ' to close it', keyword='BLOCK')
+                                ' to close it')
          end associate
       end do
    end subroutine share_nodes
@@ -123,7 +123,7 @@ contains
       i_set = find_set(context%model%node_sets, other)
       ok = i_set > 0
       if (.not. ok) then
-         call report_unknown(context, place, 'earlier node set', 'E-SET', context%model%node_sets%names, 'BLOCK')
+         call report_unknown(context, place, 'earlier node set', 'E-SET', context%model%node_sets%names)
          return
       end if
       outline = outline_of(block%nodes)
@@ -136,12 +136,12 @@ contains
       n = count(shared > 0 .and. block%nodes > 0 .and. block%nodes /= shared, kind=ip)
       if (n > 0) call report_warning(context%deck, place, 'W-BLOCK', to_text(n)//' nodes of this block lie on nodes of '//other// &
                                      ' and of an earlier name that are not shared by these', &
-                                     expected='blocks that are merged with each other', keyword='BLOCK')
+                                     expected='blocks that are merged with each other')
       block%nodes = merge(shared, block%nodes, shared > 0 .and. block%nodes == 0)
       ok = any(match > 0)
       if (.not. ok) then
          call report_error(context%deck, place, 'E-BLOCK', 'no node of this block lies on a node of '//other, &
-                           expected='blocks whose nodes coincide along a side, within 1e-6 of an element edge', keyword='BLOCK')
+                           expected='blocks whose nodes coincide along a side, within 1e-6 of an element edge')
          return
       end if
       own = blocks_named(context%joined, other)
@@ -152,7 +152,7 @@ contains
       n = sum([(count_between(side_nodes(shared, i)), i=1, size(BLOCK_SIDES, kind=ip))])
       if (n > 0) call report_warning(context%deck, place, 'W-BLOCK', to_text(n)//' nodes of this block lie between shared '// &
                                      'nodes but on none of the other block: they leave a crack', &
-                                     expected='as many elements on both sides, with the same grading', keyword='BLOCK')
+                                     expected='as many elements on both sides, with the same grading')
    end subroutine share_with
 
    !> Sides of both blocks that run from the same corner to the same corner are one side: the same curve, and as many elements on
@@ -193,7 +193,7 @@ contains
                text = names//' have as many elements, but their nodes lie elsewhere'
                expected = 'the same grading or break points on both sides'
             end if
-            call report_error(context%deck, place, 'E-BLOCK', text, expected=expected, keyword='BLOCK')
+            call report_error(context%deck, place, 'E-BLOCK', text, expected=expected)
          end do
       end do
    end function are_joined

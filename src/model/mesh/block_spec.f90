@@ -80,8 +80,7 @@ contains
             n = n + 1
             corner_line(n) = i
             is_good(4) = is_good(4) .and. deck%lines(i)%ok
-            if (deck%lines(i)%ok) call get_point(deck, deck%lines(i), 1_ip, WHAT_CORNER, spec%map%corners(:, n), is_good(4), &
-                                                 'BLOCK')
+            if (deck%lines(i)%ok) call get_point(deck, deck%lines(i), 1_ip, WHAT_CORNER, spec%map%corners(:, n), is_good(4))
          end select
       end do
       has_corners = is_good(4) .and. n == CORNERS
@@ -95,7 +94,7 @@ contains
       if (count_nodes(spec) <= most_nodes()) return
       ok = .false.
       call report_error(deck, card%place, 'E-VALUE', 'a block of more than '//to_text(most_nodes())//' nodes', &
-                        expected='fewer elements NX, NY, or fewer copies', keyword='BLOCK')
+                        expected='fewer elements NX, NY, or fewer copies')
    end subroutine read_block_spec
 
    !> Nodes of a block with all of its copies; huge of a default integer where there would be more.
@@ -134,7 +133,7 @@ contains
       if (.not. ok .or. n > 0) return
       ok = .false.
       call option_text(deck, card, name, text, found, place)
-      call report_error(deck, place, 'E-VALUE', name//' = '//to_text(n), expected=WHAT, keyword='BLOCK')
+      call report_error(deck, place, 'E-VALUE', name//' = '//to_text(n), expected=WHAT)
    end subroutine read_count
 
    !> ARC, side, xc, yc.
@@ -154,13 +153,12 @@ contains
          ok = .false.
       else if (map%is_arc(side)) then
          ok = .false.
-         call report_error(deck, line_item(deck, line, 2_ip), 'E-TWICE', name//' is an arc already', &
-                           expected='one ARC a side', keyword='BLOCK')
+         call report_error(deck, line_item(deck, line, 2_ip), 'E-TWICE', name//' is an arc already', expected='one ARC a side')
       else
          good = .true.
-         call get_point(deck, line, 3_ip, WHAT, map%centre(:, side), good, 'BLOCK')
+         call get_point(deck, line, 3_ip, WHAT, map%centre(:, side), good)
          if (good) call centre_arc(deck, [line_item(deck, line, 3_ip), line_item(deck, line, 2_ip)], map%corners(:, FROM(side)), &
-                                   map%corners(:, TO(side)), map%centre(:, side), good, 'BLOCK')
+                                   map%corners(:, TO(side)), map%centre(:, side), good)
          map%is_arc(side) = .true.
          ok = ok .and. good
       end if
@@ -186,11 +184,11 @@ contains
          i = minloc(at_corner, dim=1, kind=ip)
          if (all(at_corner < 0.0_wp)) then
             call report_error(deck, line_item(deck, deck%lines(corner_line(1)), 1_ip), 'E-SHAPE', CLOCKWISE, &
-                              expected='four corners counter-clockwise', keyword='BLOCK')
+                              expected='four corners counter-clockwise')
          else if (.not. ok) then
             call report_error(deck, line_item(deck, deck%lines(corner_line(i)), 1_ip), 'E-SHAPE', &
                               'the block has no angle between 0 and 180 degrees at its corner '//to_text(i), &
-                              expected='four corners counter-clockwise of a convex quadrilateral', keyword='BLOCK')
+                              expected='four corners counter-clockwise of a convex quadrilateral')
          end if
          return
       end if
@@ -207,7 +205,7 @@ contains
              to_text(place(2))//' % along LEFT'
       if (all(jacobian < 0.0_wp)) text = CLOCKWISE
       call report_error(deck, card%place, 'E-SHAPE', text, expected='four corners counter-clockwise, and arcs that '// &
-                        'do not cross another side; several blocks make other shapes', keyword='BLOCK')
+                        'do not cross another side; several blocks make other shapes')
    end subroutine check_map
 
    !> GRADE, along, across, words for both.
@@ -224,7 +222,7 @@ contains
 
       ok = ok .and. line%ok
       do k = 1, merge(2_ip, 0_ip, line%ok)
-         call get_real(deck, line_item(deck, line, k + 1), WHAT, spec%grade(k), good, 1.0_wp, 'BLOCK')
+         call get_real(deck, line_item(deck, line, k + 1), WHAT, spec%grade(k), good, 1.0_wp)
          ok = ok .and. good
          if (.not. good) cycle
          word = upper_case(token_text(deck, line_item(deck, line, k + 3)))
@@ -234,8 +232,7 @@ contains
             ok = .false.
             if (len(word) > 0) word = ' towards '//word
             call report_error(deck, line_item(deck, line, k + 1), 'E-VALUE', 'a grading of '//to_text(spec%grade(k))//word, &
-                              expected=trim(merge(WHAT//repeat(' ', len(LONGEST) - len(WHAT)), LONGEST, len(word) == 0)), &
-                              keyword='BLOCK')
+                              expected=trim(merge(WHAT//repeat(' ', len(LONGEST) - len(WHAT)), LONGEST, len(word) == 0)))
          else if (word == 'MIDDLE') then
             spec%grade(k) = 1/spec%grade(k)
          end if
@@ -243,7 +240,7 @@ contains
       if (allocated(spec%along) .and. abs(spec%grade(1) - 1) > 0 .or. allocated(spec%across) .and. abs(spec%grade(2) - 1) > 0) then
          ok = .false.
          call report_error(deck, line_item(deck, line, 1_ip), 'E-CONFLICT', 'GRADE and break points for one direction', &
-                           expected='one of them', keyword='BLOCK')
+                           expected='one of them')
       end if
    end subroutine read_grade
 
@@ -264,23 +261,22 @@ contains
       if (.not. line%ok) return
       is_second = allocated(breaks) .or. abs(grade - 1) > 0
       if (is_second) call report_error(deck, line_item(deck, line, 1_ip), 'E-CONFLICT', &
-                                       'this direction has its break points already', expected='GRADE or break points, once', &
-                                       keyword='BLOCK')
+                                       'this direction has its break points already', expected='GRADE or break points, once')
       if (line%n_tokens /= n) call report_error(deck, line_item(deck, line, 1_ip), 'E-VALUE', to_text(line%n_tokens - 1)// &
-                                                ' inner break points for '//to_text(n)//' elements', &
-                                                expected=to_text(n - 1)//' '//WHAT, keyword='BLOCK')
+                                                ' inner break points for '//to_text(n)//' elements', expected=to_text(n - 1)// &
+                                                ' '//WHAT)
       ok = ok .and. .not. is_second .and. line%n_tokens == n
       if (is_second .or. line%n_tokens /= n) return
       allocate (breaks(n - 1))
       lower = 0.0_wp
       do i = 1, n - 1
-         call get_real(deck, line_item(deck, line, i + 1), WHAT, breaks(i), good, keyword='BLOCK')
+         call get_real(deck, line_item(deck, line, i + 1), WHAT, breaks(i), good)
          ok = ok .and. good
          if (.not. good) cycle
          if (breaks(i) <= lower .or. breaks(i) >= 1.0_wp) then
             ok = .false.
             call report_error(deck, line_item(deck, line, i + 1), 'E-VALUE', to_text(breaks(i))//' does not lie between '// &
-                              to_text(lower)//' and 1', expected=WHAT, keyword='BLOCK')
+                              to_text(lower)//' and 1', expected=WHAT)
          end if
          lower = breaks(i)
       end do
@@ -307,23 +303,22 @@ contains
       if (.not. ok) return
       do k = 1, 2
          what = 'number of '//trim(NOUN(k))//', a positive integer'
-         call get_integer(deck, line_item(deck, line, k + 1), what, copies%n(k), good, keyword='BLOCK')
+         call get_integer(deck, line_item(deck, line, k + 1), what, copies%n(k), good)
          if (good .and. copies%n(k) <= 0) call report_error(deck, line_item(deck, line, k + 1), 'E-VALUE', 'COPY of '// &
-                                                           to_text(copies%n(k))//' '//trim(NOUN(k)), expected=what, keyword='BLOCK')
+                                                            to_text(copies%n(k))//' '//trim(NOUN(k)), expected=what)
          ok = ok .and. good .and. copies%n(k) > 0
       end do
       do k = 1, 4
          if (k > 2 .and. is_empty_token(line_item(deck, line, k + 3))) cycle
-         call get_coordinate(deck, line_item(deck, line, k + 3), trim(STEPS(k)), copies%step(ALONG(k), OF(k)), good, 'BLOCK')
+         call get_coordinate(deck, line_item(deck, line, k + 3), trim(STEPS(k)), copies%step(ALONG(k), OF(k)), good)
          ok = ok .and. good
       end do
       if (.not. ok) return
       do k = 1, 2
          if (copies%n(k) == 1 .or. any(abs(copies%step(:, k)) > 0.0_wp)) cycle
          ok = .false.
-         call report_error(deck, line_item(deck, line, k + 3), 'E-VALUE', &
-                           'the '//trim(NOUN(k))//' of COPY all stand in one place', expected='a distance that is not 0 [L]', &
-                           keyword='BLOCK')
+         call report_error(deck, line_item(deck, line, k + 3), 'E-VALUE', 'the '//trim(NOUN(k))// &
+                           ' of COPY all stand in one place', expected='a distance that is not 0 [L]')
       end do
       if (.not. ok) return
       has_merge = has_option(deck, card, 'MERGE')
@@ -332,7 +327,7 @@ contains
       end do
       ok = .not. has_merge
       if (.not. ok) call report_error(deck, line_item(deck, line, 1_ip), 'E-CONFLICT', 'COPY and MERGE= in one *BLOCK', &
-                                      expected='one of them: each copy is a body of its own', keyword='BLOCK')
+                                      expected='one of them: each copy is a body of its own')
    end subroutine read_copies
 
    !> Where copy i, j of columns and rows lies, from the first.

@@ -4,9 +4,8 @@ module atrito_body_names
    use atrito_kinds, only: ip
    use atrito_model, only: model_t
    use atrito_name_list, only: name_list_t, add_name, find_name
-   use atrito_sets, only: set_count, members_of, member_count
+   use atrito_sets, only: set_count, members_of, member_count, first_number
    use atrito_strings, only: to_text
-   use atrito_ranges, only: first_number
    implicit none (type, external)
    private
    public :: name_bodies

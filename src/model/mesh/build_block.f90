@@ -40,11 +40,11 @@ contains
       ok = ok .and. named
       if (ok) call note_corners(spec%map%corners, context%model%mesh%digit_error)
       n_copies = product(int(spec%copies%n, lp))
-      if (ok) ok = fits_memory(context%deck%cards(i_card)%place, context, count_nodes(spec), product(int(spec%n, lp))* &
-                               n_copies*elements_of_square(spec%shape), 'BLOCK', spec%shape, n_copies)
+      if (ok) ok = fits_memory(context%deck%cards(i_card)%place, context, count_nodes(spec), &
+                               product(int(spec%n, lp))*n_copies*elements_of_square(spec%shape), spec%shape, n_copies)
       do j = 1, merge(spec%copies%n(2), 0_ip, ok)
          do i = 1, spec%copies%n(1)
-            if (ok) call place_copy(i_card, spec, name, i, j, context, ok)
+            if (ok) call place_copy(name)
          end do
       end do
       if (.not. ok) then
@@ -60,6 +60,40 @@ contains
             call put_node_set(context, i_card, name//trim(BLOCK_SIDES(k)), numbers_of(at_side))
          end do
       end if
+
+   contains
+
+      !> One of the copies: its nodes, its node sets, and the block that the context keeps.
+      subroutine place_copy(name)
+         character(len=*), intent(in) :: name             !< of the *BLOCK
+         type(block_spec_t) :: shifted
+         type(block_t) :: block
+         integer(ip) :: k
+
+         shifted = spec
+         do k = 1, size(BLOCK_SIDES, kind=ip)             ! as many corners
+            shifted%map%corners(:, k) = spec%map%corners(:, k) + copy_offset(spec%copies, i, j)
+            shifted%map%centre(:, k) = spec%map%centre(:, k) + copy_offset(spec%copies, i, j)
+         end do
+         block%name = name
+         if (spec%copies%given) then
+            block%name = name//'-'//to_text(i)//'-'//to_text(j)
+            block%array = name
+            block%at_side = [j == 1, i == spec%copies%n(1), j == spec%copies%n(2), i == 1]
+         end if
+         block%card = i_card
+         block%state = spec%state
+         block%order = spec%order
+         block%shape = spec%shape
+         call place_block_nodes(i_card, shifted, context, block, ok)
+         if (.not. ok) return
+         call put_node_set(context, i_card, block%name, pack(block%nodes, block%nodes > 0))
+         do k = 1, size(BLOCK_SIDES, kind=ip)
+            call put_node_set(context, i_card, block%name//trim(BLOCK_SIDES(k)), side_nodes(block%nodes, k))
+         end do
+         call add_context_block(context, block)
+         context%elements_to_come = context%elements_to_come + count_elements(block)
+      end subroutine place_copy
    end subroutine read_block_card
 
    !> To what the corners are known, and so the nodes between them. With fewer than six digits they are meant as they are: a slope
@@ -73,43 +107,6 @@ contains
       own = printed_digit_error(corners)
       if (own <= SIX_DIGITS*maxval(abs(corners))) digit_error = max(digit_error, own)
    end subroutine note_corners
-
-   !> One of the copies: its nodes, its node sets, and the block that the context keeps.
-   subroutine place_copy(i_card, spec, name, i, j, context, ok)
-      integer(ip), intent(in) :: i_card
-      type(block_spec_t), intent(in) :: spec
-      character(len=*), intent(in) :: name             !< of the *BLOCK
-      integer(ip), intent(in) :: i, j                  !< column and row
-      type(build_context_t), intent(inout) :: context
-      logical, intent(out) :: ok
-      type(block_spec_t) :: shifted
-      type(block_t) :: block
-      integer(ip) :: k
-
-      shifted = spec
-      do k = 1, size(BLOCK_SIDES, kind=ip)             ! as many corners
-         shifted%map%corners(:, k) = spec%map%corners(:, k) + copy_offset(spec%copies, i, j)
-         shifted%map%centre(:, k) = spec%map%centre(:, k) + copy_offset(spec%copies, i, j)
-      end do
-      block%name = name
-      if (spec%copies%given) then
-         block%name = name//'-'//to_text(i)//'-'//to_text(j)
-         block%array = name
-         block%at_side = [j == 1, i == spec%copies%n(1), j == spec%copies%n(2), i == 1]
-      end if
-      block%card = i_card
-      block%state = spec%state
-      block%order = spec%order
-      block%shape = spec%shape
-      call place_block_nodes(i_card, shifted, context, block, ok)
-      if (.not. ok) return
-      call put_node_set(context, i_card, block%name, pack(block%nodes, block%nodes > 0))
-      do k = 1, size(BLOCK_SIDES, kind=ip)
-         call put_node_set(context, i_card, block%name//trim(BLOCK_SIDES(k)), side_nodes(block%nodes, k))
-      end do
-      call add_context_block(context, block)
-      context%elements_to_come = context%elements_to_come + count_elements(block)
-   end subroutine place_copy
 
    !> The nodes of a block: places x along and across its map, less those that earlier blocks share with it and those that its
    !> elements do not have.
@@ -165,8 +162,7 @@ contains
 
       are_left = greatest <= huge(1_ip) - n
       if (.not. are_left) call report_error(context%deck, context%deck%cards(i_card)%place, 'E-ID', 'the '//noun// &
-                                            ' numbers of the block, which follow the greatest so far, are too large', &
-                                            keyword='BLOCK')
+                                            ' numbers of the block, which follow the greatest so far, are too large')
    end function are_numbers_left
 
    !> The middle of each square of 3 x 3 nodes, which becomes that of the side that its two triangles share: where the map of the

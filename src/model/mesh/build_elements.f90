@@ -10,7 +10,7 @@ module atrito_build_elements
    use atrito_mesh, only: add_element, find_element, find_node
    use atrito_model_memory, only: fits_memory
    use atrito_growth, only: number_list_t, add_number, add_numbers, numbers_of
-   use atrito_plain_numbers, only: read_plain_elements, SLICE
+   use atrito_build_nodes, only: read_plain_elements, SLICE
    use atrito_references, only: get_id, find_one_node, find_one_element
    use atrito_sets, only: grow_set
    use atrito_strings, only: to_text
@@ -54,12 +54,12 @@ contains
       first = context%model%mesh%n_elements + 1
       associate (card => context%deck%cards(i_card), lines => context%deck%lines)
          call read_element_type(context%deck, card, n_nodes, state, fits)
-         if (fits) fits = fits_memory(card%place, context, 0_lp, int(card%n_lines, lp), 'ELEMENT', n_nodes)
+         if (fits) fits = fits_memory(card%place, context, 0_lp, int(card%n_lines, lp), n_nodes)
          name = option_word(context%deck, card, 'TYPE')
          if (fits .and. is_membrane(name) .and. .not. context%membranes_told) then
             context%membranes_told = .true.
             call report_note(context%deck, card%place, 'N-MEMBRANE', 'membranes are taken as plane stress: '//name//' as CPS'// &
-                             name(4:), keyword='ELEMENT')
+                             name(4:))
          end if
          k = min(SLICE, card%n_lines)
          allocate (id(k), nodes(n_nodes, k), is_plain(k))
@@ -71,7 +71,7 @@ contains
                ok = fits
                if (ok) ok = is_plain(k)
                if (ok) then
-                  call place_element(context, id(k), state, nodes(:, k), lines(i)%first_token, ok, 'ELEMENT')
+                  call place_element(context, id(k), state, nodes(:, k), lines(i)%first_token, ok)
                else if (fits .and. lines(i)%ok) then
                   call read_element_line(lines(i), n_nodes, state, context, ok)
                end if
@@ -91,28 +91,27 @@ contains
       integer(ip) :: id, nodes(n_nodes), i
       logical :: ok
 
-      call get_id(context%deck, context%deck%tokens(line%first_token), 'element number', id, good, 'ELEMENT')
+      call get_id(context%deck, context%deck%tokens(line%first_token), 'element number', id, good)
       do i = 1, n_nodes
-         call find_one_node(context, line_item(context%deck, line, i + 1), nodes(i), ok, 'ELEMENT')
+         call find_one_node(context, line_item(context%deck, line, i + 1), nodes(i), ok)
          if (ok .and. any(nodes(:i - 1) == nodes(i))) then
             ok = .false.
             call report_error(context%deck, line_item(context%deck, line, i + 1), 'E-SHAPE', 'the element has this node twice', &
-                              expected='different nodes, corners counter-clockwise', keyword='ELEMENT')
+                              expected='different nodes, corners counter-clockwise')
          end if
          good = good .and. ok
       end do
-      if (good) call place_element(context, id, state, nodes, line%first_token, good, 'ELEMENT')
+      if (good) call place_element(context, id, state, nodes, line%first_token, good)
    end subroutine read_element_line
 
    !> Adds an element and keeps where it comes from; a number given twice is an error.
-   subroutine place_element(context, id, state, nodes, place, ok, keyword)
+   subroutine place_element(context, id, state, nodes, place, ok)
       type(build_context_t), intent(inout) :: context  !< its mesh gets the element
       integer(ip), intent(in) :: id                    !< > 0
       integer(ip), intent(in) :: state                 !< place in STATES
       integer(ip), intent(in) :: nodes(:)              !< places
       integer(ip), intent(in) :: place                 !< token (> 0) or card (< 0) of the deck
       logical, intent(out) :: ok                       !< the number was free; else that is reported
-      character(len=*), intent(in) :: keyword          !< of the card, for `atrito help KEYWORD`
       integer(ip) :: i
       logical :: known
 
@@ -120,7 +119,7 @@ contains
       ok = .not. known
       i = context%model%mesh%n_elements
       if (known) i = find_element(context%model%mesh, id)
-      call note_number(context%deck, context%elements, 'element', id, i, place, known, keyword)
+      call note_number(context%deck, context%elements, 'element', id, i, place, known)
    end subroutine place_element
 
    !> The set that ELSET= of a card names.
@@ -152,32 +151,32 @@ contains
          do line = card%first_line, card%first_line + card%n_lines - 1
             if (.not. deck%lines(line)%ok) cycle
             token = line_item(deck, deck%lines(line), 1_ip)
-            call find_one_element(context, token, master, ok, 'ELGEN')
+            call find_one_element(context, token, master, ok)
             if (.not. ok) cycle
             repeats = repeat_t()
             do k = 1, 3                                ! of each direction, where it is given
                i = 3*k - 1
                if (i > deck%lines(line)%n_tokens) exit
                items = [(line_item(deck, deck%lines(line), j), j=i, i + 2)]
-               call get_integer(deck, items(1), WHAT, repeats(k)%n, good(1), 1_ip, 'ELGEN')
-               call get_integer(deck, items(2), 'increment of the node numbers', repeats(k)%node_step, good(2), 1_ip, 'ELGEN')
-               call get_integer(deck, items(3), 'increment of the element numbers', repeats(k)%element_step, good(3), 1_ip, 'ELGEN')
+               call get_integer(deck, items(1), WHAT, repeats(k)%n, good(1), 1_ip)
+               call get_integer(deck, items(2), 'increment of the node numbers', repeats(k)%node_step, good(2), 1_ip)
+               call get_integer(deck, items(3), 'increment of the element numbers', repeats(k)%element_step, good(3), 1_ip)
                if (good(1) .and. repeats(k)%n <= 0) call report_error(deck, items(1), 'E-VALUE', to_text(repeats(k)%n)// &
-                                                                      ' elements', expected=WHAT//': 1 or more', keyword='ELGEN')
+                                                                      ' elements', expected=WHAT//': 1 or more')
                ok = ok .and. all(good) .and. repeats(k)%n > 0
             end do
             if (.not. ok) cycle
             ! the product of three integers may be larger than any of them can be
             n = int(min(product(real(repeats%n, wp)), real(huge(1_ip), wp)), lp)
-            if (.not. fits_memory(token, context, 0_lp, n, 'ELGEN')) cycle
+            if (.not. fits_memory(token, context, 0_lp, n)) cycle
             first_new = context%model%mesh%n_elements + 1
             copies: do k = 0, repeats(3)%n - 1
                do j = 0, repeats(2)%n - 1
                   do i = 0, repeats(1)%n - 1
                      shift = [i, j, k]
                      if (all(shift == 0_lp)) cycle
-                     call copy_element_once(token, deck%lines(line)%first_token, 'ELGEN', context, master, &
-                                            [sum(shift*repeats%node_step), sum(shift*repeats%element_step)], ok)
+                     call copy_element_once(token, deck%lines(line)%first_token, context, master, [sum(shift*repeats%node_step), &
+                                                                                               sum(shift*repeats%element_step)], ok)
                      if (.not. ok) exit copies
                   end do
                end do
@@ -190,10 +189,9 @@ contains
    end subroutine read_elgen_card
 
    !> An element once more on other nodes.
-   subroutine copy_element_once(token, place, keyword, context, master, shift, ok)
+   subroutine copy_element_once(token, place, context, master, shift, ok)
       type(token_t), intent(in) :: token               !< at which errors are reported
       integer(ip), intent(in) :: place                 !< token (> 0) or card (< 0) of the deck
-      character(len=*), intent(in) :: keyword          !< of the card, for `atrito help KEYWORD`
       type(build_context_t), intent(inout) :: context  !< its mesh gets the element
       integer(ip), intent(in) :: master                !< place
       integer(lp), intent(in) :: shift(2)              !< of the numbers of nodes and of elements, which may become too large
@@ -215,14 +213,13 @@ contains
          end if
          if (is_undetermined(context, 'node')) return
          call report_error(context%deck, token, 'E-NODE', 'node '//to_text(ids(i))//' of the generated element '//to_text(id)// &
-                           ' does not exist', expected='copies whose nodes all exist', keyword=keyword)
+                           ' does not exist', expected='copies whose nodes all exist')
       else if (id < 1_lp .or. id > int(huge(1_ip), lp)) then
          ok = .false.
          call report_error(context%deck, token, 'E-ID', 'the generated element number '//to_text(id)// &
-                           trim(merge(' is too large   ', ' is not positive', id > 0_lp)), expected='positive element numbers', &
-                           keyword=keyword)
+                           trim(merge(' is too large   ', ' is not positive', id > 0_lp)), expected='positive element numbers')
       else
-         call place_element(context, int(id, ip), context%model%mesh%state(master), nodes, place, ok, keyword)
+         call place_element(context, int(id, ip), context%model%mesh%state(master), nodes, place, ok)
       end if
    end subroutine copy_element_once
 

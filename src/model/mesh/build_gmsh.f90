@@ -6,7 +6,7 @@
 module atrito_build_gmsh
    use atrito_build_context, only: build_context_t, note_places, note_undetermined_mesh, ids_text
    use atrito_build_nodes, only: put_node_set
-   use atrito_curves, only: add_curve
+   use atrito_build_parts, only: add_curve
    use atrito_diagnostics, only: report_error, report_note
    use atrito_element_table, only: CORNERS_OF, MOST_NODES
    use atrito_gmsh_mesh, only: gmsh_mesh_t, group_name, part_name
@@ -39,8 +39,7 @@ contains
       if (i == 0) return
       associate (mesh => context%deck%meshes(i))
          call choose_nodes(mesh, context, map, node, ok)
-         if (ok) ok = fits_memory(context%deck%cards(i_card)%place, context, int(mesh%n_nodes, lp), int(mesh%n_elements, lp), &
-                                  'INCLUDE')
+         if (ok) ok = fits_memory(context%deck%cards(i_card)%place, context, int(mesh%n_nodes, lp), int(mesh%n_elements, lp))
          if (ok) call find_shift(mesh%node_id, context%model%mesh%node_map, context%nodes%greatest, 'node', mesh, context, &
                                  shift, ok)
          if (.not. ok) return
@@ -57,7 +56,7 @@ contains
          if (any(node == 0)) call report_note(context%deck, context%deck%cards(i_card)%place, 'N-NODE', 'node '// &
                                               ids_text(pack(mesh%node_id(:mesh%n_nodes), node == 0))//' of '//mesh%file// &
                                               ' belongs to no element and is left out', &
-                                              expected='a physical point, where such a node is meant', keyword='INCLUDE')
+                                              expected='a physical point, where such a node is meant')
          call put_sets(mesh, map, node, context)
       end associate
    end subroutine read_mesh_nodes
@@ -78,7 +77,7 @@ contains
       type(build_context_t), intent(inout) :: context
       character(len=*), intent(in) :: id, text, expected
 
-      call report_error(context%deck, context%deck%cards(mesh%card)%place, id, text, expected=expected, keyword='INCLUDE')
+      call report_error(context%deck, context%deck%cards(mesh%card)%place, id, text, expected=expected)
       call note_undetermined_mesh(context)
    end subroutine refuse
 
@@ -154,7 +153,7 @@ contains
       end if
       shift = int(power, ip)
       call report_note(context%deck, context%deck%cards(mesh%card)%place, 'N-NUMBERS', noun//' '//to_text(ids(i))//' of '// &
-                       mesh%file//' is taken: '//to_text(shift)//' is added to all '//noun//' numbers of the file')
+                       mesh%file//' is taken: '//to_text(shift)//' is added to all '//noun//' numbers of the file', keyword='')
    end subroutine find_shift
 
    !> Node sets of all entities and physical groups, and the lines of curves.
@@ -224,8 +223,7 @@ contains
          if (.not. ok) return
          if (.not. has_option(context%deck, context%deck%cards(i_card), 'ELEMENTS')) then
             call report_note(context%deck, context%deck%cards(i_card)%place, 'N-GMSH', 'the elements of '//mesh%file// &
-                             ' are taken as plane stress', expected='ELEMENTS=CPS, CPE (plane strain) or CAX (axisymmetric)', &
-                             keyword='INCLUDE')
+                             ' are taken as plane stress', expected='ELEMENTS=CPS, CPE (plane strain) or CAX (axisymmetric)')
          end if
          ! element sets of the surfaces of the drawing and their physical groups
          call list_holders(mesh%n_parts, reshape(merge(mesh%part, 0_ip, place > 0), [1_ip, mesh%n_elements]), from, members)

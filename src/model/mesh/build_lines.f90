@@ -7,7 +7,7 @@
 module atrito_build_lines
    use atrito_build_context, only: build_context_t, spoil_number, invalidate_name, keep_token, ids_text, has_errors
    use atrito_build_nodes, only: put_node_set
-   use atrito_curves, only: add_curve, find_curve_faces, find_node_faces, nodes_of_no_face
+   use atrito_build_parts, only: add_curve, find_curve_faces, find_node_faces, nodes_of_no_face
    use atrito_deck, only: card_t, token_t, token_text, line_item, is_id_token, is_empty_token, keyword_name
    use atrito_diagnostics, only: report_error, report_note
    use atrito_faces, only: add_face, drop_repeated, face_list_t
@@ -58,7 +58,7 @@ contains
          call option_text(context%deck, context%deck%cards(i), 'ELSET', name, found, place)
          if (.not. found .or. find_set(context%lines%sets, name) == 0) cycle
          call report_error(context%deck, place, 'E-OUTSIDE', 'the elements of set '//name//' would be trusses, which atrito '// &
-                           'has not', expected='elements of the plane; a spring along a line is *SPRING', keyword='SOLID SECTION')
+                           'has not', expected='elements of the plane; a spring along a line is *SPRING')
          call invalidate_name(context, name)
       end do
    end subroutine read_lines
@@ -76,15 +76,15 @@ contains
       whole = .true.
       associate (deck => context%deck, card => context%deck%cards(i_card), lines => context%lines)
          if (lines%ids%n == 0) call report_note(deck, card%place, 'N-LINES', 'line elements have no stiffness here: each of '// &
-                                                'their sets is a node set and a surface', keyword='ELEMENT')
+                                                'their sets is a node set and a surface')
          do i = card%first_line, card%first_line + card%n_lines - 1
             ok = card%ok .and. deck%lines(i)%ok
             if (ok) then
                nodes = 0
                token = line_item(deck, deck%lines(i), 1_ip)
-               call get_id(deck, token, 'element number', id, ok, 'ELEMENT')
+               call get_id(deck, token, 'element number', id, ok)
                do k = 1, deck%lines(i)%n_tokens - 1
-                  call find_one_node(context, line_item(deck, deck%lines(i), k + 1), nodes(k), good, 'ELEMENT')
+                  call find_one_node(context, line_item(deck, deck%lines(i), k + 1), nodes(k), good)
                   ok = ok .and. good
                end do
             end if
@@ -92,7 +92,7 @@ contains
                call add_id(lines%ids, id, lines%ids%n + 1, found)
                ok = .not. found
                if (found) call report_error(deck, token, 'E-TWICE', 'element '//to_text(id)//' is given twice', &
-                                            expected='an element number that is free', keyword='ELEMENT')
+                                            expected='an element number that is free')
             end if
             whole = whole .and. ok
             if (.not. ok) then
@@ -221,7 +221,7 @@ contains
          if (is_line_card(context, context%deck%cards(e))) exit
       end do
       call report_note(context%deck, context%deck%cards(e)%place, 'N-TURNED', to_text(turned)//' elements ran clockwise and '// &
-                       'are turned, and so are their faces S1, S2, ...', keyword='ELEMENT')
+                       'are turned, and so are their faces S1, S2, ...')
    end subroutine turn_elements
 
    !> The faces on the outline that lie on curves, or between the nodes of a *SURFACE, TYPE=NODE.
@@ -257,7 +257,7 @@ contains
          if (.not. found) return
          do i = card%first_line, card%first_line + card%n_lines - 1
             good = deck%lines(i)%ok
-            if (good) call find_nodes(context, line_item(deck, deck%lines(i), 1_ip), members, good, 'SURFACE')
+            if (good) call find_nodes(context, line_item(deck, deck%lines(i), 1_ip), members, good)
             if (good) call add_numbers(list, members)
             ok = ok .and. good
          end do
@@ -269,11 +269,10 @@ contains
             loose = nodes_of_no_face(mesh, nodes, surface%faces)
             if (surface%faces%n == 0) then
                call report_error(deck, card%place, 'E-FACE', 'no outer face has all its nodes in surface '//name, &
-                                 expected='the nodes of faces on the outline of a body, those in their middles too', &
-                                 keyword='SURFACE')
+                                 expected='the nodes of faces on the outline of a body, those in their middles too')
             else if (size(loose) > 0 .and. .not. has_errors()) then
                call report_note(deck, card%place, 'N-SURFACE', 'node '//ids_text(mesh%node_id(loose))//' of surface '//name// &
-                                ' is on none of its faces', keyword='SURFACE')
+                                ' is on none of its faces')
             end if
          end associate
       end associate
@@ -319,7 +318,7 @@ contains
             call add_surface(context, surface, place)
             if (curve%n_inside > 0) call report_note(context%deck, place, 'N-SURFACE', to_text(curve%n_inside)//' of '// &
                                                      to_text(curve%n)//' lines of '//curve%name// &
-                                                     ' are on no outline: its surface has the others')
+                                                     ' are on no outline: its surface has the others', keyword='')
          end associate
       end do
    end subroutine put_curve_surfaces

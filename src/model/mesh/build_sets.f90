@@ -13,12 +13,11 @@ module atrito_build_sets
    use atrito_items, only: get_integer, has_option, option_text, option_integer
    use atrito_kinds, only: ip, lp, wp
    use atrito_model_memory, only: fits_memory
-   use atrito_motion, only: motion_t, read_shift, read_rotation, moved
+   use atrito_coordinates, only: motion_t, read_shift, read_rotation, moved
    use atrito_numbers, only: read_integer, NUMBER_OK
    use atrito_places, only: read_places
-   use atrito_ranges, only: ranges_t, add_range, add_numbers, add_ranges, count_numbers
+   use atrito_sets, only: ranges_t, add_range, add_numbers, add_ranges, count_numbers, set_list_t, find_set, grow_set, members_of
    use atrito_references, only: get_id, find_nodes, find_elements, report_unknown
-   use atrito_sets, only: set_list_t, find_set, grow_set, members_of
    use atrito_strings, only: to_text, upper_case
    implicit none (type, external)
    private
@@ -171,16 +170,16 @@ contains
          end if
          if (i_set == 0) then
             if (is_of_nodes) then
-               call find_nodes(context, token, found, ok, 'NSET')
+               call find_nodes(context, token, found, ok)
             else
-               call find_elements(context, token, found, ok, 'ELSET')
+               call find_elements(context, token, found, ok)
                if (.not. ok) context%sections_undetermined = .true.
             end if
             if (ok) call add_numbers(members, found)
          else if (is_later) then
             call report_error(context%deck, token, 'E-SET', 'node set '//token_text(context%deck, token)// &
                               ' is defined later, in '//place_text(context%deck, maker%place, token), &
-                              expected='a node set that is defined above', keyword='NSET')
+                              expected='a node set that is defined above')
          else
             call add_ranges(members, sets%sets(i_set)%members)
          end if
@@ -195,23 +194,21 @@ contains
       type(id_map_t), intent(in) :: others             !< numbers that are passed over
       character(len=*), intent(in) :: noun             !< 'node' or 'element'
       type(ranges_t), intent(inout) :: members
-      character(len=:), allocatable :: keyword, id
+      character(len=:), allocatable :: id
       type(number_list_t) :: missing
       type(token_t) :: token
       integer(ip) :: first, last, step, k
       logical :: ok(3)
 
-      keyword = trim(merge('NSET ', 'ELSET', noun == 'node'))
       id = 'E-'//upper_case(noun)
       token = line_item(deck, line, 1_ip)
-      call get_id(deck, token, 'first '//noun//' number', first, ok(1), keyword)
-      call get_id(deck, line_item(deck, line, 2_ip), 'last '//noun//' number', last, ok(2), keyword)
-      call get_integer(deck, line_item(deck, line, 3_ip), 'increment, an integer', step, ok(3), 1_ip, keyword)
+      call get_id(deck, token, 'first '//noun//' number', first, ok(1))
+      call get_id(deck, line_item(deck, line, 2_ip), 'last '//noun//' number', last, ok(2))
+      call get_integer(deck, line_item(deck, line, 3_ip), 'increment, an integer', step, ok(3), 1_ip)
       if (.not. all(ok)) return
-      if (.not. is_range(deck, line, first, last, step, keyword)) return
+      if (.not. is_range(deck, line, first, last, step)) return
       if ((last - first)/step >= map%n + invalid%n + others%n) then
-         call report_error(deck, token, id, 'there are only '//to_text(map%n)//' '//noun//'s', expected='numbers that all exist', &
-                           keyword=keyword)
+         call report_error(deck, token, id, 'there are only '//to_text(map%n)//' '//noun//'s', expected='numbers that all exist')
          return
       end if
       if (step == 1 .and. is_whole_sequence(map, first, last)) then
@@ -229,17 +226,16 @@ contains
       end do
       if (missing%n == 0) return
       call report_error(deck, token, id, 'no such '//noun//' in this range: '//ids_text(numbers_of(missing) - &
-                                                                               scope_shift(deck, token))//scope_text(deck, token), &
-                        expected='numbers that all exist', keyword=keyword)
+                                                                                        scope_shift(deck, token))// &
+                        scope_text(deck, token), expected='numbers that all exist')
    end subroutine read_range
 
    !> Increments that lead from first towards last. What other programs read in another way, or silently, is reported.
-   logical function is_range(deck, line, first, last, step, keyword)
+   logical function is_range(deck, line, first, last, step)
       type(deck_t), intent(in) :: deck
       type(data_line_t), intent(in) :: line
       integer(ip), intent(in) :: first, last
       integer(ip), intent(inout) :: step
-      character(len=*), intent(in) :: keyword
       integer(ip) :: shift, rest
       type(token_t) :: place
 
@@ -248,16 +244,15 @@ contains
       is_range = step > 0 .or. (step < 0 .and. last < first)
       if (.not. is_range) then
          call report_error(deck, place, 'E-VALUE', 'steps of '//to_text(step)//' do not lead from '//to_text(first - shift)// &
-                           ' to '//to_text(last - shift), expected='an increment > 0', keyword=keyword)
+                           ' to '//to_text(last - shift), expected='an increment > 0')
          return
       end if
       if (last < first) step = -abs(step)              ! however it is written
       rest = mod(last - first, step)
       if (rest /= 0) call report_note(deck, place, 'N-RANGE', 'steps of '//to_text(abs(step))//' do not end at '// &
-                                      to_text(last - shift)//'; the last number is '//to_text(last - rest - shift), keyword=keyword)
+                                      to_text(last - shift)//'; the last number is '//to_text(last - rest - shift))
       if (last < first) call report_note(deck, line_item(deck, line, 2_ip), 'N-RANGE', 'the range goes down: all from '// &
-                                         to_text(first - shift)//' to '//to_text(last - rest - shift)//' are taken', &
-                                         keyword=keyword)
+                                         to_text(first - shift)//' to '//to_text(last - rest - shift)//' are taken')
    end function is_range
 
    !> *NCOPY: the nodes of a set, moved; *ELCOPY: the elements of a set on other nodes, which are there already. The first number
@@ -289,21 +284,21 @@ contains
          call option_text(deck, card, 'NEW SET', name, found)
          fits = all(ok)
          if (fits) fits = fits_memory(place, context, merge(size(members, kind=lp), 0_lp, is_of_nodes), &
-                                      merge(0_lp, size(members, kind=lp), is_of_nodes), keyword_name(card))
+                                      merge(0_lp, size(members, kind=lp), is_of_nodes))
          first = merge(mesh%n_nodes, mesh%n_elements, is_of_nodes) + 1
          do i = 1, size(members, kind=ip)
             if (.not. fits) exit
             if (.not. is_of_nodes) then
-               call copy_element_once(place, -i_card, 'ELCOPY', context, members(i), int([node_shift, shift], lp), fits)
+               call copy_element_once(place, -i_card, context, members(i), int([node_shift, shift], lp), fits)
                cycle
             end if
             id = int(mesh%node_id(members(i)), lp) + int(shift, lp)
             if (id > 0_lp .and. id <= int(huge(1_ip), lp)) then
-               call place_node(context, int(id, ip), moved(motion, mesh%x(:, members(i))), -i_card, fits, 'NCOPY')
+               call place_node(context, int(id, ip), moved(motion, mesh%x(:, members(i))), -i_card, fits)
             else
                fits = .false.
                call report_error(deck, place, 'E-ID', 'node '//to_text(mesh%node_id(members(i)))//' would become '//to_text(id), &
-                                 expected='positive node numbers that are not too large', keyword='NCOPY')
+                                 expected='positive node numbers that are not too large')
             end if
          end do
          if (.not. fits) call invalidate_block(context, name)
@@ -348,7 +343,7 @@ contains
       if (ok) then
          members = members_of(sets%sets(i))
       else
-         call report_unknown(context, place, 'earlier '//noun, 'E-SET', sets%names, keyword_name(card))
+         call report_unknown(context, place, 'earlier '//noun, 'E-SET', sets%names)
       end if
    end subroutine find_old_set
 
@@ -368,13 +363,13 @@ contains
       call option_integer(deck, card, 'MULTIPLE', WHAT, times, good)
       if (times < 1) then
          call option_text(deck, card, 'MULTIPLE', text, good, place)
-         call report_error(deck, place, 'E-VALUE', 'MULTIPLE = '//to_text(times), expected=WHAT, keyword='NCOPY')
+         call report_error(deck, place, 'E-VALUE', 'MULTIPLE = '//to_text(times), expected=WHAT)
       end if
       ok = times >= 1 .and. card%n_lines > 0 .and. all(deck%lines(card%first_line:card%first_line + card%n_lines - 1)%ok)
       if (.not. ok) return
-      call read_shift(deck, deck%lines(card%first_line), 'NCOPY', motion, ok)
+      call read_shift(deck, deck%lines(card%first_line), motion, ok)
       if (card%n_lines > 1) then
-         call read_rotation(deck, deck%lines(card%first_line + 1), 'NCOPY', real(times, wp), motion, good)
+         call read_rotation(deck, deck%lines(card%first_line + 1), real(times, wp), motion, good)
          ok = ok .and. good
       end if
    end subroutine read_motion

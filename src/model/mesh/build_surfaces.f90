@@ -1,6 +1,6 @@
 !> *SURFACE, and the surfaces that a *BLOCK has by itself.
 module atrito_build_surfaces
-   use atrito_coordinates, only: centre_arc, get_point
+   use atrito_coordinates, only: centre_arc, get_point, moved
    use atrito_build_lines, only: put_curve_surfaces, take_node_surface, add_surface
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, is_id_token, keyword_name
    use atrito_diagnostics, only: report_error
@@ -13,15 +13,13 @@ module atrito_build_surfaces
    use atrito_mesh, only: elements_of_square, side_count
    use atrito_messages, only: has_room, SEVERITY_ERROR
    use atrito_model, only: surface_t, SURFACE_SEGMENTS
-   use atrito_motion, only: moved
    use atrito_name_list, only: add_name, find_name, has_name
    use atrito_growth, only: number_list_t, add_number, numbers_of
    use atrito_numbers, only: read_integer
-   use atrito_ranges, only: numbers_among
+   use atrito_sets, only: numbers_among, set_t, find_set, member_count, members_of
    use atrito_references, only: find_elements, check_faces
    use atrito_refined_members, only: face_on_side, fine_elements
    use atrito_refinement, only: is_refined
-   use atrito_sets, only: set_t, find_set, member_count, members_of
    use atrito_sorting, only: each_once
    use atrito_strings, only: same_name, upper_case
    implicit none (type, external)
@@ -177,19 +175,19 @@ contains
          ok = i_set > 0 .or. find_set(context%model%node_sets, name) == 0
          if (.not. ok) then
             call report_error(context%deck, token, 'E-SET', name//' is a node set', &
-                              expected='an element set; or TYPE=NODE, the faces between its nodes', keyword='SURFACE')
+                              expected='an element set; or TYPE=NODE, the faces between its nodes')
             return
          end if
          if (i_set > 0 .and. .not. is_cut) then
             call list_outline(context)
             if (face == 0 .or. (.not. is_refined(context%refinement) .and. face <= context%least_sides)) then
-               call take_outline(line, context, context%model%element_sets%sets(i_set), face, faces, ok)
+               call take_outline(context%model%element_sets%sets(i_set))
                return
             end if
          end if
       end if
-      call find_elements(context, token, elements, ok, 'SURFACE')
-      if (ok .and. face > 0) call check_faces(context, line_item(context%deck, line, 2_ip), elements, face, 'SURFACE', ok)
+      call find_elements(context, token, elements, ok)
+      if (ok .and. face > 0) call check_faces(context, line_item(context%deck, line, 2_ip), elements, face, ok)
       if (.not. ok) return
       if (face == 0) then
          call add_faces(outer_faces(context%model%mesh, context%around, elements), 0_ip, faces)
@@ -205,6 +203,31 @@ contains
       end do
       ok = inside%n == 0
       if (.not. ok) call report_inside(context, line, numbers_of(inside), inside%n)
+
+   contains
+
+      !> Takes the faces of a set's elements that lie on the outline; one that is asked for and does not is an error.
+      subroutine take_outline(set)
+         type(set_t), intent(in) :: set
+         type(number_list_t) :: inside
+         integer(ip), allocatable :: elements(:)
+         integer(ip) :: i, n
+
+         n = member_count(set) + faces%n
+         call add_faces(outer_faces(context%model%mesh, context%around, numbers_among(set%members, context%outer_elements)), face, &
+                        faces)
+         n = n - faces%n                                  ! elements whose face lies inside the mesh
+         ok = face == 0 .or. n == 0
+         if (ok) return
+         elements = [integer(ip) ::]
+         if (has_room(SEVERITY_ERROR)) elements = members_of(set)
+         do i = 1, size(elements, kind=ip)                ! the first of them, as many as a message has
+            if (is_outer_face(context%model%mesh, context%around, elements(i), face)) cycle
+            call add_number(inside, context%model%mesh%element_id(elements(i)))
+            if (inside%n == MOST_IDS) exit
+         end do
+         call report_inside(context, line, numbers_of(inside), merge(n, 0_ip, inside%n > 0))
+      end subroutine take_outline
    end subroutine read_face_line
 
    !> The elements on the outline.
@@ -224,34 +247,6 @@ contains
          end do
       end associate
    end subroutine list_outline
-
-   !> Takes the faces of a set's elements that lie on the outline; one that is asked for and does not is an error.
-   subroutine take_outline(line, context, set, face, faces, ok)
-      type(data_line_t), intent(in) :: line
-      type(build_context_t), intent(in) :: context
-      type(set_t), intent(in) :: set
-      integer(ip), intent(in) :: face                  !< 0: all
-      type(face_list_t), intent(inout) :: faces
-      logical, intent(out) :: ok
-      type(number_list_t) :: inside
-      integer(ip), allocatable :: elements(:)
-      integer(ip) :: i, n
-
-      n = member_count(set) + faces%n
-      call add_faces(outer_faces(context%model%mesh, context%around, numbers_among(set%members, context%outer_elements)), face, &
-                     faces)
-      n = n - faces%n                                  ! elements whose face lies inside the mesh
-      ok = face == 0 .or. n == 0
-      if (ok) return
-      elements = [integer(ip) ::]
-      if (has_room(SEVERITY_ERROR)) elements = members_of(set)
-      do i = 1, size(elements, kind=ip)                ! the first of them, as many as a message has
-         if (is_outer_face(context%model%mesh, context%around, elements(i), face)) cycle
-         call add_number(inside, context%model%mesh%element_id(elements(i)))
-         if (inside%n == MOST_IDS) exit
-      end do
-      call report_inside(context, line, numbers_of(inside), merge(n, 0_ip, inside%n > 0))
-   end subroutine take_outline
 
    !> Adds those of some faces that have a number; 0: all.
    pure subroutine add_faces(some, face, faces)
@@ -276,7 +271,7 @@ contains
       place = line_item(context%deck, line, 2_ip)
       call report_error(context%deck, place, 'E-FACE', 'face '//token_text(context%deck, place)// &
                         ' lies inside the mesh, of element '//ids_text(ids, n), &
-                        expected='faces on the outline of the body; without a face, all of them', keyword='SURFACE')
+                        expected='faces on the outline of the body; without a face, all of them')
    end subroutine report_inside
 
    !> START, LINE and CIRCL.
@@ -302,12 +297,12 @@ contains
             word = upper_case(token_text(deck, line_item(deck, line, 1_ip)))
             is_arc = word == 'CIRCL'
             x = 0.0_wp
-            call get_point(deck, line, 2_ip, WHAT(:2), x(:2), ok, 'SURFACE')
-            if (is_arc) call get_point(deck, line, 4_ip, WHAT(3:), x(3:), ok, 'SURFACE')
+            call get_point(deck, line, 2_ip, WHAT(:2), x(:2), ok)
+            if (is_arc) call get_point(deck, line, 4_ip, WHAT(3:), x(3:), ok)
             if (i > card%first_line .and. word == 'START') then   ! that it is there once is checked by the reader
                ok = .false.
                call report_error(deck, line_item(deck, line, 1_ip), 'E-VALUE', 'START is not the first line', &
-                                 expected='START, x, y first, then LINE or CIRCL', keyword='SURFACE')
+                                 expected='START, x, y first, then LINE or CIRCL')
             end if
             if (.not. ok) cycle
             n = n + 1
@@ -316,9 +311,9 @@ contains
             associate (before => surface%points(:, n - 1))
                ok = norm2(x(:2) - before) > epsilon(1.0_wp)*(maxval(abs(before)) + maxval(abs(x(:2))))
                if (.not. ok) call report_error(deck, line_item(deck, line, 2_ip), 'E-VALUE', 'the segment has no length', &
-                                               expected='an end that differs from the one before [L]', keyword='SURFACE')
+                                               expected='an end that differs from the one before [L]')
                if (ok .and. is_arc) call centre_arc(deck, [line_item(deck, line, 4_ip), line_item(deck, line, 2_ip)], before, &
-                                                    x(:2), x(3:), ok, 'SURFACE')
+                                                    x(:2), x(3:), ok)
             end associate
             surface%is_arc(n - 1) = is_arc
             surface%centre(:, n - 1) = x(3:)
@@ -332,7 +327,7 @@ contains
       ! without START the reader has reported it
       if (.not. same_name(token_text(deck, line_item(deck, deck%lines(card%first_line), 1_ip)), 'START')) return
       call report_error(deck, card%place, 'E-MISSING', 'the surface has no segment', &
-                        expected='START, x, y and LINE, x, y or CIRCL, x, y, xc, yc [L]', keyword='SURFACE')
+                        expected='START, x, y and LINE, x, y or CIRCL, x, y, xc, yc [L]')
    end subroutine read_segments
 
 end module atrito_build_surfaces

@@ -2,7 +2,7 @@
 module atrito_build_loads
    use atrito_deck, only: is_empty_token, token_t, token_text, keyword_name
    use atrito_diagnostics, only: report_error, report_warning, report_note
-   use atrito_build_amplitudes, only: take_amplitude
+   use atrito_build_steps, only: take_amplitude
    use atrito_build_context, only: build_context_t, line_token, replaced_t, ids_text, is_invalid, has_errors, has_lost_elements
    use atrito_build_rigid_bodies, only: can_move, is_reference, ROTATION_DOF
    use atrito_faces, only: is_outer_face
@@ -15,13 +15,13 @@ module atrito_build_loads
    use atrito_growth, only: number_list_t, add_number, numbers_of
    use atrito_numbers, only: read_integer
    use atrito_plane_state, only: STATES
-   use atrito_propagation, only: is_of_step, removes_all, propagate, list_inherited, apply_condition, set_to_zero, warn_of_replaced
+   use atrito_propagation, only: is_of_step, removes_all, propagate, list_inherited, apply_condition, set_to_zero, &
+                                 warn_of_replaced, open_source
    use atrito_read_load, only: read_face_function, read_face_load, read_direction, read_spin, has_no_rest, magnitude_of
    use atrito_references, only: find_nodes, find_elements, find_surface, check_faces
    use atrito_refined_members, only: face_on_side
    use atrito_refinement, only: is_refined
    use atrito_row_dofs, only: has_no_unknowns, WHAT_DOF, AT_REFERENCE
-   use atrito_sources, only: open_source
    use atrito_strings, only: to_text, upper_case
    implicit none (type, external)
    private
@@ -141,21 +141,21 @@ contains
       force%line = context%open%line
       force%amplitude = context%open%amplitude
       force%source = context%open%source
-      call find_nodes(context, line_token(context, 1_ip), nodes, ok(1), 'CLOAD')
+      call find_nodes(context, line_token(context, 1_ip), nodes, ok(1))
       ! a concentrated force stays where the deck puts it
       if (is_refined(context%refinement)) nodes = pack(nodes, nodes <= context%refinement%n_nodes)
-      call get_integer(context%deck, line_token(context, 2_ip), WHAT_DOF, force%dof, ok(2), keyword='CLOAD')
-      call get_real(context%deck, line_token(context, 3_ip), 'force, a real [F]', force%value(1), ok(3), keyword='CLOAD')
+      call get_integer(context%deck, line_token(context, 2_ip), WHAT_DOF, force%dof, ok(2))
+      call get_real(context%deck, line_token(context, 3_ip), 'force, a real [F]', force%value(1), ok(3))
       if (.not. all(ok(2:))) return
       turns = force%dof == ROTATION_DOF .and. size(nodes) > 0 .and. all(is_reference(context, nodes))
       if ((force%dof < 1 .or. force%dof > 2) .and. .not. turns) then
          ! A dof that there is not in the plane: harmless where the force is 0.
          associate (deck => context%deck, what => 'dof '//to_text(force%dof)//' does not exist in the plane')
             if (force%dof > 2 .and. force%dof <= LAST_DOF .and. .not. abs(force%value(1)) > 0.0_wp) then
-               call report_note(deck, line_token(context, 2_ip), 'N-DOF', what//'; its force is 0', keyword='CLOAD')
+               call report_note(deck, line_token(context, 2_ip), 'N-DOF', what//'; its force is 0')
             else
-               call report_error(deck, line_token(context, 2_ip), 'E-DOF', what, expected=WHAT_DOF//repeat(AT_REFERENCE, merge(1, &
-                                                                                    0, force%dof == ROTATION_DOF)), keyword='CLOAD')
+               call report_error(deck, line_token(context, 2_ip), 'E-DOF', what, expected=WHAT_DOF// &
+                                 repeat(AT_REFERENCE, merge(1, 0, force%dof == ROTATION_DOF)))
             end if
          end associate
          return
@@ -165,18 +165,17 @@ contains
          if (has_lost_elements(context)) return
          call report_error(context%deck, line_token(context, 1_ip), 'E-NODE', 'node '// &
                            ids_text(pack(context%model%mesh%node_id(nodes), has_no_unknowns(context, nodes)))// &
-                           ' belongs to no element and cannot carry a force', expected='nodes of elements', keyword='CLOAD')
+                           ' belongs to no element and cannot carry a force', expected='nodes of elements')
          return
       end if
       if (size(nodes) > 1 .and. abs(force%value(1)) > 0.0_wp) then
          call report_note(context%deck, line_token(context, 3_ip), 'N-EACH', 'each of the '//to_text(size(nodes, kind=ip))// &
                           ' nodes of '//token_text(context%deck, line_token(context, 1_ip))//' takes '// &
-                          to_text(force%value(1), DIGITS)//', all together '//to_text(size(nodes)*force%value(1), DIGITS), &
-                          keyword='CLOAD')
+                          to_text(force%value(1), DIGITS)//', all together '//to_text(size(nodes)*force%value(1), DIGITS))
       end if
       do i = 1, size(nodes, kind=ip)
          if (is_reference(context, nodes(i))) then
-            if (.not. can_move(context, line_token(context, 1_ip), nodes(i), force%dof, force%value(1), 'CLOAD')) cycle
+            if (.not. can_move(context, line_token(context, 1_ip), nodes(i), force%dof, force%value(1))) cycle
          end if
          force%place = nodes(i)
          call apply_condition(force, slot_of(force), context%open%old_forces, context%open%forces, context%open%replaced)
@@ -218,9 +217,9 @@ contains
       logical :: held(size(nodes))
 
       held = context%dof_entry(dof_slot(dof), nodes) > 0
-      if (any(held)) call report_note(context%deck, line_token(context, 2_ip), 'N-SUPPORT', 'dof '//to_text(dof)// &
-                                      ' of node '//ids_text(pack(context%model%mesh%node_id(nodes), held))// &
-                                      ' is prescribed: the force goes into the reaction', keyword='CLOAD')
+      if (any(held)) call report_note(context%deck, line_token(context, 2_ip), 'N-SUPPORT', 'dof '//to_text(dof)//' of node '// &
+                                      ids_text(pack(context%model%mesh%node_id(nodes), held))// &
+                                      ' is prescribed: the force goes into the reaction')
    end subroutine note_supported
 
    !> Element or set, label, magnitude[, direction or levels].
@@ -239,14 +238,14 @@ contains
          elements = [(i, i=1, context%model%mesh%n_elements)]
          ok = .true.
       else
-         call find_elements(context, line_token(context, 1_ip), elements, ok, 'DLOAD')
+         call find_elements(context, line_token(context, 1_ip), elements, ok)
       end if
       if (.not. any(label == VOLUME_LABELS)) then
          call read_face_load(context, label, 'DLOAD', load%kind, value, good)
-         if (ok .and. good) call load_faces(context, elements, label(len(label):), load, value)
+         if (ok .and. good) call load_faces(label(len(label):))
          return
       end if
-      call get_real(context%deck, line_token(context, 3_ip), magnitude_of(label), magnitude, good, keyword='DLOAD')
+      call get_real(context%deck, line_token(context, 3_ip), magnitude_of(label), magnitude, good)
       ok = ok .and. good .and. has_no_rest(context, label, 'DLOAD')
       load%kind = LOAD_BODY
       select case (label)
@@ -259,36 +258,34 @@ contains
       case ('GRAV', 'CENTRIF')
          call load_masses(context, elements, load, label == 'CENTRIF', magnitude, ok)
       end select
+
+   contains
+
+      !> A load on the face of each element that the label ends with.
+      subroutine load_faces(digit)
+         character(len=1), intent(in) :: digit            !< of the label
+         type(number_list_t) :: inside
+         integer(ip) :: face, i
+         integer :: outcome
+         logical :: ok
+
+         call read_integer(digit, face, outcome)
+         call check_faces(context, line_token(context, 2_ip), elements, face, ok)
+         if (.not. ok) return
+         do i = 1, size(elements, kind=ip)
+            load%face = face_on_side(context%refinement, elements(i), face)
+            if (load%face == 0) cycle
+            call add_load(context, load, elements(i), value)
+            if (.not. is_outer_face(context%model%mesh, context%around, elements(i), load%face)) then
+               call add_number(inside, context%model%mesh%element_id(elements(i)))
+            end if
+         end do
+         if (inside%n > 0) call report_warning(context%deck, line_token(context, 2_ip), 'W-FACE', 'the '// &
+                                               trim(merge('traction', 'pressure', load%kind == LOAD_TRACTION))// &
+                                               ' acts inside the mesh, too, on face '//digit//' of element '// &
+                                               ids_text(numbers_of(inside)), expected='elements on the outline of the body')
+      end subroutine load_faces
    end subroutine read_dload_line
-
-   !> A load on the face of each element that the label ends with.
-   subroutine load_faces(context, elements, digit, load, value)
-      type(build_context_t), intent(inout) :: context
-      integer(ip), intent(in) :: elements(:)
-      character(len=1), intent(in) :: digit            !< of the label
-      type(condition_t), intent(inout) :: load
-      real(wp), intent(in) :: value(3)
-      type(number_list_t) :: inside
-      integer(ip) :: face, i
-      integer :: outcome
-      logical :: ok
-
-      call read_integer(digit, face, outcome)
-      call check_faces(context, line_token(context, 2_ip), elements, face, 'DLOAD', ok)
-      if (.not. ok) return
-      do i = 1, size(elements, kind=ip)
-         load%face = face_on_side(context%refinement, elements(i), face)
-         if (load%face == 0) cycle
-         call add_load(context, load, elements(i), value)
-         if (.not. is_outer_face(context%model%mesh, context%around, elements(i), load%face)) then
-            call add_number(inside, context%model%mesh%element_id(elements(i)))
-         end if
-      end do
-      if (inside%n > 0) call report_warning(context%deck, line_token(context, 2_ip), 'W-FACE', 'the ' &
-                         //trim(merge('traction', 'pressure', load%kind == LOAD_TRACTION))//' acts inside the mesh, too, on face ' &
-                                            //digit//' of element '//ids_text(numbers_of(inside)), &
-                                            expected='elements on the outline of the body', keyword='DLOAD')
-   end subroutine load_faces
 
    !> Loads upon the mass of elements, as a force per volume. GRAV: density times acceleration along a direction g, rho a g.
    !> CENTRIF: density times the square of the angular velocity times the way from the axis, rho w^2 S (x - x0), as a linear and a
@@ -309,7 +306,7 @@ contains
          if (size(elements) > 0) is_ring = STATES(context%model%mesh%state(elements(1)))%has_hoop
          call read_spin(context, magnitude, is_ring, way, constant, ok)
       else
-         call read_direction(context, 'gravity', 'DLOAD', constant, ok)
+         call read_direction(context, 'gravity', constant, ok)
       end if
       if (.not. (ok .and. good)) return
       call need_density(context, elements)
@@ -357,7 +354,7 @@ contains
       token = line_token(context, 1_ip)
       label = upper_case(token_text(context%deck, line_token(context, 2_ip)))
       load = load_of_line(context, label)
-      call find_surface(context, token, s, 'DSLOAD')
+      call find_surface(context, token, s)
       allocate (values(3, 1))
       if (.not. is_function) call read_face_load(context, label, 'DSLOAD', load%kind, values(:, 1), ok)
       if (s == 0) return
@@ -365,12 +362,11 @@ contains
       associate (surface => context%model%surfaces(s))
          if (surface%kind /= SURFACE_ELEMENTS) then
             call report_error(context%deck, token, 'E-SURFACE', 'surface '//surface%name// &
-                              ' is a drawn line, which carries no pressure', expected='a surface of TYPE=ELEMENT', keyword='DSLOAD')
+                              ' is a drawn line, which carries no pressure', expected='a surface of TYPE=ELEMENT')
          else if (surface%faces%n == 0) then
             if (is_invalid(context, surface%name) .or. has_errors()) return   ! elements are missing, and that was reported
             call report_error(context%deck, token, 'E-SURFACE', 'surface '//surface%name// &
-                              ' has no faces: others join it everywhere', expected='a surface on the outline of a body', &
-                              keyword='DSLOAD')
+                              ' has no faces: others join it everywhere', expected='a surface on the outline of a body')
          end if
          if (.not. ok) return
          do i = 1, surface%faces%n

@@ -4,8 +4,7 @@ module atrito_build_requests
    use atrito_deck, only: deck_t, card_t, token_t, token_text, option_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t
-   use atrito_build_cuts, only: read_cut_card
-   use atrito_build_paths, only: read_path_card
+   use atrito_drawn_lines, only: read_cut_card, read_path_card
    use atrito_propagation, only: is_of_step
    use atrito_foreign_keywords, only: variable_of_component
    use atrito_items, only: find_option, has_option, option_integer, option_real, option_text, option_word, refuse_option
@@ -50,8 +49,12 @@ contains
       type(build_context_t), intent(inout) :: context
       type(card_t), intent(in) :: card
       type(step_t), intent(inout) :: step
+      type(option_t) :: option
+      logical :: found
 
-      if (asks_for_nothing(context%deck, card)) return
+      call find_option(context%deck, card, 'FREQUENCY', option, found)
+      if (found) found = verify(token_text(context%deck, option%value), '0') == 0
+      if (found) return                                ! FREQUENCY=0: what earlier steps asked for is not printed any more
       associate (requests => step%requests, every => step%requests%every)
          select case (keyword_name(card))
          case ('CONTROLS')
@@ -93,16 +96,6 @@ contains
       end associate
    end subroutine read_card
 
-   !> FREQUENCY=0: what earlier steps asked for is not printed any more.
-   logical function asks_for_nothing(deck, card)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
-      type(option_t) :: option
-
-      call find_option(deck, card, 'FREQUENCY', option, asks_for_nothing)
-      if (asks_for_nothing) asks_for_nothing = verify(token_text(deck, option%value), '0') == 0
-   end function asks_for_nothing
-
    !> FREQUENCY= of a table or of the field file, one in a step.
    subroutine read_frequency(deck, card, every)
       type(deck_t), intent(in) :: deck
@@ -119,12 +112,10 @@ contains
       if (.not. found) return
       call find_option(deck, card, 'FREQUENCY', option, found)
       if (n < 1) then
-         call report_error(deck, option%value, 'E-VALUE', 'FREQUENCY = '//to_text(n)//' is out of range', expected=WHAT, &
-                           keyword=keyword_name(card))
+         call report_error(deck, option%value, 'E-VALUE', 'FREQUENCY = '//to_text(n)//' is out of range', expected=WHAT)
       else if (every > 0 .and. every /= n) then
          call report_error(deck, option%value, 'E-CONFLICT', 'FREQUENCY = '//to_text(n)//' here, but '//to_text(every)// &
-                           ' before in this step', expected='one FREQUENCY= for a table, and for the field file, in a step', &
-                           keyword=keyword_name(card))
+                           ' before in this step', expected='one FREQUENCY= for a table, and for the field file, in a step')
       else
          every = n
       end if
@@ -221,7 +212,7 @@ contains
          call find_option(context%deck, context%deck%cards(i), 'RELAXATION', option, found)
          if (.not. found) cycle
          call report_error(context%deck, option%name, 'E-CONFLICT', 'RELAXATION= is for METHOD=PICARD; the method here is '// &
-                           trim(METHOD_NAME(controls%method)), expected='METHOD=PICARD, or no RELAXATION=', keyword='CONTROLS')
+                           trim(METHOD_NAME(controls%method)), expected='METHOD=PICARD, or no RELAXATION=')
       end do
    end subroutine check_relaxation
 
@@ -290,7 +281,7 @@ contains
          case ('NODE FILE', 'EL FILE', 'CONTACT FILE', 'RESTART')
             call report_error(deck, deck%cards(i)%place, 'E-NOT-BUILT', '*'//keyword_name(deck%cards(i))// &
                               ': this build of atrito has no HDF5', expected='an atrito built with -DATRITO_HDF5=ON, or no *'// &
-                              keyword_name(deck%cards(i)), keyword=keyword_name(deck%cards(i)))
+                              keyword_name(deck%cards(i)))
          end select
       end do
    end subroutine refuse_field_files
@@ -312,8 +303,8 @@ contains
       call option_text(context%deck, card, option, name, given, place)
       allocate (chosen(n), source=.not. given)
       if (.not. given) return
-      if (option == 'NSET') call find_nodes(context, place, members, ok, keyword_name(card))
-      if (option == 'ELSET') call find_elements(context, place, members, ok, keyword_name(card))
+      if (option == 'NSET') call find_nodes(context, place, members, ok)
+      if (option == 'ELSET') call find_elements(context, place, members, ok)
       chosen(members) = .true.
    end subroutine choose_members
 

@@ -4,23 +4,29 @@
 !> A condition has two values, at the beginning and at the end of its step, between which it goes linearly. In the next step it
 !> begins with the value that it has come to, and stays there: with an amplitude a that is value times a(end of the step). What is
 !> removed or replaced goes from there to 0 or to the new value.
+!>
+!> What the lines of supports and loads act on, by the names of the deck: the rows of resultants.tab.
 module atrito_propagation
-   use atrito_amplitudes, only: factor_at, time_before
+   use atrito_step_loads, only: factor_at, time_before
    use atrito_build_context, only: build_context_t, inherited_t, place_text, replaced_t
-   use atrito_deck, only: token_t, keyword_name, line_item, token_text
+   use atrito_deck, only: token_t, keyword_name, line_item, token_text, is_empty_token
+   use atrito_items, only: evaluate_at, get_real, has_option, option_text, option_word
    use atrito_diagnostics, only: report_error, report_warning
    use atrito_growth, only: resize
    use atrito_id_map, only: id_map_t, add_id
-   use atrito_items, only: get_real, has_option, option_text, option_word
    use atrito_kinds, only: ip, wp
    use atrito_load_lists, only: condition_t, condition_list_t, add_condition, scaled
    use atrito_model, only: LOAD_HYDROSTATIC
-   use atrito_strings, only: same_name, upper_case
+   use atrito_name_list, only: add_name, find_name, names_of
+   use atrito_strings, only: same_name, upper_case, string_t, to_text
    implicit none (type, external)
    private
-   public :: is_of_step, is_inherited, removes_all, propagate, list_inherited, apply_condition, set_to_zero, warn_of_replaced
+   public :: is_of_step, is_inherited, removes_all, propagate, list_inherited, apply_condition, set_to_zero, warn_of_replaced, &
+             open_source, keep_sources
 
    integer(ip), parameter :: LABEL_ITEM = 2, FIRST = 4, LAST = 9   !< of a line of a load: label; direction, or point and axis
+
+   character(len=*), parameter :: ALL_ELEMENTS = 'all_elements'   !< of a line that names none
 
 contains
 
@@ -64,7 +70,7 @@ contains
             call option_text(context%deck, card, 'OP', word, found, place)
             call report_error(context%deck, place, 'E-CONFLICT', '*'//keyword//' has '//trim(merge('OP=NEW', 'OP=MOD', is_new))// &
                               ' here, but '//trim(merge('OP=MOD', 'OP=NEW', is_new))//' before in this step', &
-                              expected='the same OP= for all *'//keyword//' of a step; MOD when left out', keyword=keyword)
+                              expected='the same OP= for all *'//keyword//' of a step; MOD when left out')
          end associate
       end do
    end function removes_all
@@ -206,8 +212,7 @@ contains
                                 'that in '//place_text(deck, deck%tokens(deck%lines(old)%first_token), &
                                                        deck%tokens(deck%lines(new)%first_token))//', which acts '// &
                                 trim(merge('about another axis     ', 'along another direction', label == 'CENTRIF')), &
-                                expected='both lines in this step, if both are to act; OP=NEW, if not', &
-                                keyword=trim(merge('DSLOAD', 'DLOAD ', label == 'TRVEC')))
+                                expected='both lines in this step, if both are to act; OP=NEW, if not')
          end associate
       end do
    end subroutine warn_of_replaced
@@ -267,5 +272,47 @@ contains
          end associate
       end do
    end function acts_alike
+
+   !> What is added from now on is of the line that begins with this token. Lines of a keyword that name the same are one source.
+   subroutine open_source(context, keyword, token)
+      type(build_context_t), intent(inout) :: context  !< open%source is set; a new source is kept
+      character(len=*), intent(in) :: keyword          !< without blanks
+      type(token_t), intent(in) :: token               !< its first item: set, surface or number; empty: all elements
+      character(len=:), allocatable :: name
+      type(token_t) :: inner
+      real(wp) :: value
+      logical :: known
+
+      name = ALL_ELEMENTS
+      if (.not. is_empty_token(token)) name = token_text(context%deck, token)
+      if (index(name, '<') == 1) then                  ! of an expression the number that it is
+         inner = token
+         inner%first = token%first + 1
+         inner%last = token%last - 1
+         call evaluate_at(context%deck, inner, value, known, silent=.true.)
+         if (known) known = abs(value) < real(huge(1_ip), wp)
+         if (known) name = to_text(nint(value, ip))
+      end if
+      name = keyword//' '//name
+      context%open%source = find_name(context%source_names, name)
+      if (context%open%source > 0) return
+      call add_name(context%source_names, name)
+      context%open%source = context%source_names%n
+   end subroutine open_source
+
+   !> The model has them all.
+   pure subroutine keep_sources(context)
+      type(build_context_t), intent(inout) :: context !< its model gets sources
+      type(string_t), allocatable :: names(:)
+      integer :: i, blank
+
+      names = names_of(context%source_names)
+      allocate (context%model%sources(size(names)))
+      do i = 1, size(names)
+         blank = index(names(i)%s, ' ')
+         context%model%sources(i)%keyword = names(i)%s(:blank - 1)
+         context%model%sources(i)%name = names(i)%s(blank + 1:)
+      end do
+   end subroutine keep_sources
 
 end module atrito_propagation

@@ -44,25 +44,25 @@ contains
       logical :: good(3)
 
       value = 0.0_wp
-      call get_real(context%deck, line_token(context, 3_ip), magnitude_of(label), magnitude, good(1), keyword=keyword)
+      call get_real(context%deck, line_token(context, 3_ip), magnitude_of(label), magnitude, good(1))
       good(2) = has_no_rest(context, label, keyword)
       good(3) = .true.
       select case (label(1:1))
       case ('T')
          kind = LOAD_TRACTION
-         call read_direction(context, 'traction', keyword, direction, good(3))
+         call read_direction(context, 'traction', direction, good(3))
          if (good(3)) value(:2) = magnitude*direction
       case ('H')
          kind = LOAD_HYDROSTATIC
          value(1) = magnitude
          if (good(2)) then
-            call get_real(context%deck, line_token(context, 4_ip), LEVEL, value(2), good(3), keyword=keyword)
-            call get_real(context%deck, line_token(context, 5_ip), LEVEL_OF_MAGNITUDE, value(3), ok, keyword=keyword)
+            call get_real(context%deck, line_token(context, 4_ip), LEVEL, value(2), good(3))
+            call get_real(context%deck, line_token(context, 5_ip), LEVEL_OF_MAGNITUDE, value(3), ok)
             good(3) = good(3) .and. ok
             if (good(3) .and. .not. abs(value(2) - value(3)) > 0.0_wp) then
                good(3) = .false.
-               call report_error(context%deck, line_token(context, 5_ip), 'E-VALUE', &
-                                 'the pressure is zero at this level', expected=LEVEL_OF_MAGNITUDE, keyword=keyword)
+               call report_error(context%deck, line_token(context, 5_ip), 'E-VALUE', 'the pressure is zero at this level', &
+                                 expected=LEVEL_OF_MAGNITUDE)
             end if
          end if
       case default
@@ -94,14 +94,15 @@ contains
          ok = line%n_tokens > 2 + rest .and. label /= 'HP'
          if (.not. ok) then
             call report_error(context%deck, line_token(context, 2_ip), 'E-VALUE', trim(merge('HP with FUNCTION     ', &
-                                     'no direction of TRVEC', label == 'HP')), expected='P, function; or TRVEC, function, t1, t2', &
-                              keyword='DSLOAD')
+                                                                                             'no direction of TRVEC', &
+                                                                                             label == 'HP')), &
+                              expected='P, function; or TRVEC, function, t1, t2')
             return
          end if
          expression = line_item(context%deck, line, 3_ip)
          last = line_item(context%deck, line, line%n_tokens - rest)
          expression%last = last%last                   ! commas belong to the expression: max(x, y)
-         if (rest > 0) call read_direction(context, 'traction', 'DSLOAD', direction, ok, line%n_tokens - 1)
+         if (rest > 0) call read_direction(context, 'traction', direction, ok, line%n_tokens - 1)
       end associate
       if (.not. ok) return
       do i = 1, faces%n
@@ -145,9 +146,9 @@ contains
       line = open_line(context)
       has_no_rest = line%n_tokens <= most
       if (has_no_rest) return
-      call report_error(context%deck, line_token(context, most + 1), 'E-ITEMS', to_text(line%n_tokens) &
-                        //' items, where '//to_text(most)//' belong', expected=trim(merge('surface', 'element', &
-                                               keyword == 'DSLOAD'))//', '//label//', '//magnitude_of(label)//rest, keyword=keyword)
+      call report_error(context%deck, line_token(context, most + 1), 'E-ITEMS', to_text(line%n_tokens)//' items, where '// &
+                        to_text(most)//' belong', expected=trim(merge('surface', 'element', keyword == 'DSLOAD'))//', '//label// &
+                        ', '//magnitude_of(label)//rest)
    end function has_no_rest
 
    !> What the magnitude of a load with this label is, for messages.
@@ -172,10 +173,9 @@ contains
    end function magnitude_of
 
    !> The unit vector of items 4 to 6, or of those from another one on, of any length.
-   subroutine read_direction(context, what, keyword, direction, ok, first)
+   subroutine read_direction(context, what, direction, ok, first)
       type(build_context_t), intent(in) :: context     !< its open line is read
       character(len=*), intent(in) :: what             !< has the direction
-      character(len=*), intent(in) :: keyword          !< of the card, for `atrito help KEYWORD`
       real(wp), intent(out) :: direction(2)            !< unit vector [-]; 0 where not ok
       logical, intent(out) :: ok                       !< no error was reported
       integer(ip), intent(in), optional :: first       !< item of the first component; default 4
@@ -188,17 +188,16 @@ contains
       if (what == 'gravity') wanted = 'direction of gravity, gx, gy, not both 0 [-]'
       item = 4
       if (present(first)) item = first
-      call get_reals(context%deck, open_line(context), item, wanted, d, ok, keyword, spread(0.0_wp, 1, 3))
+      call get_reals(context%deck, open_line(context), item, wanted, d, ok, spread(0.0_wp, 1, 3))
       if (.not. ok) return
       if (abs(d(3)) <= FLAT*maxval(abs(d(:2)))) d(3) = 0.0_wp ! what a cosine of 90 degrees leaves
       ok = .not. abs(d(3)) > 0.0_wp .and. maxval(abs(d)) > 0.0_wp
       if (abs(d(3)) > 0.0_wp) then
-         call report_error(context%deck, line_token(context, item + 2), 'E-VALUE', 'the scene is plane: ' &
-                           //trim(merge('gz                 ', 'the third component', what == 'gravity'))//' is not 0', &
-                           expected=trim(merge('gz = 0', '0     ', what == 'gravity')), keyword=keyword)
+         call report_error(context%deck, line_token(context, item + 2), 'E-VALUE', 'the scene is plane: '// &
+                           trim(merge('gz                 ', 'the third component', what == 'gravity'))//' is not 0', &
+                           expected=trim(merge('gz = 0', '0     ', what == 'gravity')))
       else if (.not. ok) then
-         call report_error(context%deck, line_token(context, item), 'E-VALUE', &
-                           what//' has no direction', expected=wanted, keyword=keyword)
+         call report_error(context%deck, line_token(context, item), 'E-VALUE', what//' has no direction', expected=wanted)
       else
          d = d/maxval(abs(d))
          direction = d(:2)/norm2(d(:2))
@@ -219,14 +218,13 @@ contains
       there = 0.0_wp
       ok = square >= 0.0_wp
       if (.not. ok) call report_error(context%deck, line_token(context, 3_ip), 'E-VALUE', &
-                                      'the square of an angular velocity is negative', expected=magnitude_of('CENTRIF'), &
-                                      keyword='DLOAD')
-      call get_reals(context%deck, open_line(context), FIRST, WHAT_POINT, point, good(1), 'DLOAD', spread(0.0_wp, 1, 3))
-      call get_reals(context%deck, open_line(context), AXIS, WHAT_AXIS, a, good(2), 'DLOAD', spread(0.0_wp, 1, 3))
+                                      'the square of an angular velocity is negative', expected=magnitude_of('CENTRIF'))
+      call get_reals(context%deck, open_line(context), FIRST, WHAT_POINT, point, good(1), spread(0.0_wp, 1, 3))
+      call get_reals(context%deck, open_line(context), AXIS, WHAT_AXIS, a, good(2), spread(0.0_wp, 1, 3))
       ok = ok .and. all(good)
       if (.not. ok) return
       if (maxval(abs(a)) > 0.0_wp) a = a/maxval(abs(a))
-      call check_axis(context, is_ring, point, a, ok)
+      call check_axis()
       if (.not. ok) return
       if (is_ring) then
          way(1) = 1.0_wp
@@ -237,33 +235,31 @@ contains
          way = [a(2)*a(2), -a(1)*a(2), a(1)*a(1)]
       end if
       there = -[way(1)*point(1) + way(2)*point(2), way(2)*point(1) + way(3)*point(2)]
+
+   contains
+
+      subroutine check_axis()
+         logical :: is_across
+
+         ok = .false.
+         is_across = abs(a(3)) > 0.0_wp
+         if (.not. any(abs(a) > 0.0_wp)) then
+            call report_error(context%deck, line_token(context, AXIS), 'E-VALUE', 'the axis of CENTRIF has no direction', &
+                              expected=WHAT_AXIS)
+         else if (is_ring .and. (is_across .or. abs(a(1)) > 0.0_wp .or. abs(point(1)) > 0.0_wp .or. abs(point(3)) > 0.0_wp)) then
+            call report_error(context%deck, line_token(context, FIRST), 'E-VALUE', &
+                              'axisymmetric elements turn about the axis y alone', &
+                              expected='0, 0, 0, 0, 1, 0: a point of the axis and its direction')
+         else if (is_across .and. any(abs(a(:2)) > 0.0_wp)) then
+            call report_error(context%deck, line_token(context, AXIS), 'E-VALUE', &
+                              'an oblique axis of CENTRIF pushes out of the plane', expected=WHAT_AXIS)
+         else if (.not. is_across .and. abs(point(3)) > 0.0_wp) then
+            call report_error(context%deck, line_token(context, FIRST + 2), 'E-VALUE', &
+                              'an axis of CENTRIF beside the plane pushes out of it', expected='z = 0 [L]')
+         else
+            ok = .true.
+         end if
+      end subroutine check_axis
    end subroutine read_spin
-
-   subroutine check_axis(context, is_ring, point, a, ok)
-      type(build_context_t), intent(in) :: context
-      logical, intent(in) :: is_ring
-      real(wp), intent(in) :: point(3), a(3)
-      logical, intent(out) :: ok
-      logical :: is_across
-
-      ok = .false.
-      is_across = abs(a(3)) > 0.0_wp
-      if (.not. any(abs(a) > 0.0_wp)) then
-         call report_error(context%deck, line_token(context, AXIS), 'E-VALUE', &
-                           'the axis of CENTRIF has no direction', expected=WHAT_AXIS, keyword='DLOAD')
-      else if (is_ring .and. (is_across .or. abs(a(1)) > 0.0_wp .or. abs(point(1)) > 0.0_wp .or. abs(point(3)) > 0.0_wp)) then
-         call report_error(context%deck, line_token(context, FIRST), 'E-VALUE', &
-                           'axisymmetric elements turn about the axis y alone', &
-                           expected='0, 0, 0, 0, 1, 0: a point of the axis and its direction', keyword='DLOAD')
-      else if (is_across .and. any(abs(a(:2)) > 0.0_wp)) then
-         call report_error(context%deck, line_token(context, AXIS), 'E-VALUE', &
-                           'an oblique axis of CENTRIF pushes out of the plane', expected=WHAT_AXIS, keyword='DLOAD')
-      else if (.not. is_across .and. abs(point(3)) > 0.0_wp) then
-         call report_error(context%deck, line_token(context, FIRST + 2), 'E-VALUE', &
-                           'an axis of CENTRIF beside the plane pushes out of it', expected='z = 0 [L]', keyword='DLOAD')
-      else
-         ok = .true.
-      end if
-   end subroutine check_axis
 
 end module atrito_read_load

@@ -1,8 +1,10 @@
 !> What a deck means: one model_t, all that the solver and the writers need, no deck text.
+!>
+!> The names of the units of a deck, *UNITS. Nothing is computed from them: they are for people.
 module atrito_model
    use atrito_bilateral_rows, only: bilateral_rows_t
    use atrito_controls, only: controls_t
-   use atrito_cross_section, only: cross_section_t
+   use atrito_crossings, only: cross_section_t
    use atrito_element_places, only: place_t
    use atrito_faces, only: face_list_t
    use atrito_friction_law, only: FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_POINTS, KERNEL_LINE
@@ -14,18 +16,14 @@ module atrito_model
    use atrito_points, only: contact_points_t
    use atrito_sets, only: set_list_t
    use atrito_strings, only: string_t
-   use atrito_units, only: units_t
    implicit none (type, external)
    private
-   public :: model_t, step_t, material_t, section_t, surface_t, interaction_t, pair_t, nodal_values_t, element_load_t, elasticity_of
-   public :: provenance_t, rigid_body_t, instance_t, source_t, cut_t, observed_line_t, path_t
-   public :: amplitude_t, increments_t, frequencies_t, spring_t, tie_t, requests_t, requested_t, parameter_value_t
-   public :: SURFACE_ELEMENTS, SURFACE_SEGMENTS, FORMULATION_STANDARD, FORMULATION_BBAR, FORMULATION_NAME
-   public :: FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_POINTS, KERNEL_LINE
-   public :: QUADRATURE_AUTO, QUADRATURE_NODAL, QUADRATURE_MORTAR
-   public :: FRICTION_NAME, KERNEL_NAME
-   public :: is_due, all_frequencies, rigid_body_name
-   public :: LOAD_PRESSURE, LOAD_BODY, LOAD_TRACTION, LOAD_HYDROSTATIC, LOAD_LINEAR, is_on_volume
+   public :: model_t, step_t, material_t, section_t, surface_t, interaction_t, pair_t, nodal_values_t, element_load_t, &
+            elasticity_of, provenance_t, rigid_body_t, cut_t, observed_line_t, path_t, amplitude_t, increments_t, spring_t, tie_t, &
+            requests_t, requested_t, SURFACE_ELEMENTS, SURFACE_SEGMENTS, FORMULATION_STANDARD, FORMULATION_BBAR, FORMULATION_NAME, &
+             FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_POINTS, KERNEL_LINE, QUADRATURE_AUTO, QUADRATURE_NODAL, &
+             QUADRATURE_MORTAR, FRICTION_NAME, KERNEL_NAME, is_due, all_frequencies, rigid_body_name, LOAD_PRESSURE, LOAD_BODY, &
+             LOAD_TRACTION, LOAD_HYDROSTATIC, LOAD_LINEAR, is_on_volume, units_t, unit_names, in_units, name_units, N_UNITS
 
    integer(ip), parameter :: SURFACE_ELEMENTS = 1, SURFACE_SEGMENTS = 2
    character(len=8), parameter :: FORMULATION_NAME(2) = ['STANDARD', 'BBAR    ']
@@ -263,6 +261,16 @@ module atrito_model
       type(requests_t) :: requests                  !< what is printed of this step
    end type step_t
 
+   integer(ip), parameter :: N_UNITS = 4
+
+   !> What dimensions are written with (docs/user/keywords.md), in the order of the names.
+   character(len=11), parameter :: SYMBOLS(N_UNITS) = [character(len=11) :: 'L', 'F', 'T', 'temperature']
+
+   !> *UNITS.
+   type :: units_t
+      type(string_t) :: names(N_UNITS)   !< of length, force, time and temperature; %s not allocated: not named
+   end type units_t
+
    !> All that a deck means.
    type :: model_t
       character(len=:), allocatable :: deck_path    !< as the user wrote it
@@ -358,5 +366,74 @@ contains
       elastic%stiffness = turned_stiffness(material%stiffness, section%axis)
       elastic%compliance = turned_compliance(inverse_of(material%stiffness), section%axis)
    end function elasticity_of
+
+   !> The names as *UNITS has them: 'm, kN'; '' where there are none.
+   pure function unit_names(units) result(text)
+      type(units_t), intent(in) :: units         !< of the deck
+      character(len=:), allocatable :: text
+      integer(ip) :: k
+
+      text = ''
+      do k = 1, N_UNITS
+         if (.not. allocated(units%names(k)%s)) cycle
+         if (k > 1) text = text//', '
+         text = text//units%names(k)%s
+      end do
+   end function unit_names
+
+   !> `[F/L^2]` is `[kN/m^2]` in a line for people, where the deck names its units.
+   pure subroutine name_units(units, line, quote)
+      type(units_t), intent(in) :: units
+      character(len=:), allocatable, intent(inout) :: line
+      character(len=1), intent(in), optional :: quote   !< round the words of the user, which stay
+      character(len=:), allocatable :: name
+      integer :: begin, end, next, k
+      logical :: is_ours
+
+      if (.not. any([(allocated(units%names(k)%s), k=1, N_UNITS)])) return
+      begin = index(line, '[')
+      do while (begin > 0)
+         end = begin + index(line(begin:), ']') - 1
+         if (end < begin) return
+         name = line(begin + 1:end - 1)
+         is_ours = .true.
+         if (present(quote)) is_ours = mod(count([(line(k:k) == quote, k=1, begin)]), 2) == 0
+         if (is_ours) name = in_units(units, name)
+         line = line(:begin)//name//line(end:)
+         end = begin + len(name) + 1
+         next = index(line(end:), '[')
+         begin = merge(0, end + next - 1, next == 0)
+      end do
+   end subroutine name_units
+
+   !> A dimension in the units of a deck: 'F/L^2' is 'kN/m^2'. What has no name stays as it is: 'F/L^2'.
+   pure function in_units(units, dimension) result(text)
+      type(units_t), intent(in) :: units          !< of the deck
+      character(len=*), intent(in) :: dimension   !< F, L, T and temperature with what joins them
+      character(len=:), allocatable :: text
+      character(len=*), parameter :: LETTERS = 'ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz'
+      integer :: first, last
+      integer(ip) :: k
+
+      text = ''
+      first = 1
+      do while (first <= len(dimension))
+         last = first + verify(dimension(first:)//' ', LETTERS) - 2
+         if (last < first) then
+            text = text//dimension(first:first)
+            first = first + 1
+            cycle
+         end if
+         k = findloc(SYMBOLS, dimension(first:last), 1, kind=ip)
+         if (k == 0) then
+            text = text//dimension(first:last)
+         else if (.not. allocated(units%names(k)%s)) then
+            text = text//dimension(first:last)
+         else
+            text = text//units%names(k)%s
+         end if
+         first = last + 1
+      end do
+   end function in_units
 
 end module atrito_model

@@ -41,11 +41,10 @@ contains
 
    !> False, and an error, when the mesh with some more nodes and elements needs more memory than there is, or has more nodes than
    !> there are numbers for: displacements, and the nodes of all elements one behind the other, are counted in 32 bits.
-   logical function fits_memory(place, context, new_nodes, new_elements, keyword, element_nodes, new_blocks) result(fits)
+   logical function fits_memory(place, context, new_nodes, new_elements, element_nodes, new_blocks) result(fits)
       type(token_t), intent(in) :: place               !< of the item or keyword that asks for them; source 0: none
       type(build_context_t), intent(inout) :: context  !< its mesh and blocks so far count too; loses has_room
       integer(lp), intent(in) :: new_nodes, new_elements !< to come, >= 0
-      character(len=*), intent(in), optional :: keyword !< of the card, for `atrito help KEYWORD`
       integer(ip), intent(in), optional :: element_nodes   !< of each new element; without it they may have as many as there are
       integer(lp), intent(in), optional :: new_blocks  !< blocks to come; default 0
       character(len=:), allocatable :: what
@@ -70,15 +69,14 @@ contains
       fits = bytes <= context%memory
       if (.not. fits) then
          context%has_room = .false.
-         call report_error(context%deck, place, 'E-MEMORY', what//'needs about '//memory_text(bytes)// &
-                           ' of memory, there are '//memory_text(context%memory), expected='a coarser mesh, or a larger machine', &
-                           keyword=keyword)
+         call report_error(context%deck, place, 'E-MEMORY', what//'needs about '//memory_text(bytes)//' of memory, there are '// &
+                           memory_text(context%memory), expected='a coarser mesh, or a larger machine')
          return
       end if
       fits = n_nodes <= MOST_OF_NUMBERS .and. n_corners <= int(huge(1_ip), lp)
       if (fits) return
       call report_error(context%deck, place, 'E-VALUE', what//'is more than there are numbers for', expected='at most '// &
-                        to_text(MOST_OF_NUMBERS)//' nodes, and '//to_text(huge(1_ip))//' nodes of elements', keyword=keyword)
+                        to_text(MOST_OF_NUMBERS)//' nodes, and '//to_text(huge(1_ip))//' nodes of elements')
    end function fits_memory
 
 end module atrito_model_memory
