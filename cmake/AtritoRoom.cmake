@@ -58,3 +58,11 @@ function(atrito_add_room room)
    endforeach()
    target_link_libraries(atrito_${room} PUBLIC ${ARG_LIBRARIES})
 endfunction()
+
+# Texts that become modules: their lines in Fortran.
+function(atrito_text_lines name)
+   list(TRANSFORM ARGN PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+   add_custom_command(OUTPUT atrito_${name}.f90
+      COMMAND sh ${PROJECT_SOURCE_DIR}/tools/text-lines ${name} ${ARGN} > atrito_${name}.f90
+      DEPENDS ${ARGN} ${PROJECT_SOURCE_DIR}/tools/text-lines VERBATIM)
+endfunction()

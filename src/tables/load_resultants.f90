@@ -152,7 +152,8 @@ contains
       face = loads%face(i)
       a = model%mesh%x(:, model%mesh%nodes(face, e))
       b = model%mesh%x(:, model%mesh%nodes(face_end(model%mesh, e, face), e))
-      push = loads%value(1, i)*depth_of(model, e, 0.5_wp*a(1) + 0.5_wp*b(1))
+      push = loads%value(1, i)*depth_at(model%mesh%state(e), model%sections(model%section_of(e))%thickness, &
+                                        0.5_wp*a(1) + 0.5_wp*b(1))
       call add_to(force, push*[a(2) - b(2), b(1) - a(1)], 0.5_wp*a + 0.5_wp*b)
    end subroutine add_pressure
 
@@ -204,13 +205,5 @@ contains
          end do
       end associate
    end subroutine add_nodal_forces
-
-   pure real(wp) function depth_of(model, e, x1)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: e
-      real(wp), intent(in) :: x1
-
-      depth_of = depth_at(model%mesh%state(e), model%sections(model%section_of(e))%thickness, x1)
-   end function depth_of
 
 end module atrito_load_resultants

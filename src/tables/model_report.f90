@@ -380,13 +380,18 @@ contains
    subroutine describe_interactions(page, model)
       type(page_t), intent(inout) :: page
       type(model_t), intent(in) :: model
+      character(len=:), allocatable :: text
       integer(ip) :: i
 
       if (size(model%pairs, kind=ip) == 0) return
       call add_blank(page)
       do i = 1, size(model%interactions, kind=ip)
-         call add_entry(page, model%interactions(i)%name//', contact', contact_text(model%interactions(i)))
-         call add_entry(page, model%interactions(i)%name//', friction', friction_text(model%interactions(i)))
+         associate (law => model%interactions(i))
+            text = 'exact (delta = 0)'
+            if (law%delta > 0.0_wp) text = 'penalty, delta '//number(law%delta, DIGITS)//' [L^3/F]'
+            call add_entry(page, law%name//', contact', text)
+            call add_entry(page, law%name//', friction', friction_text(law))
+         end associate
       end do
       associate (controls => model%steps(size(model%steps))%controls)
          call add_entry(page, 'outer loop', trim(METHOD_NAME(controls%method))//', tolerance '// &
@@ -420,14 +425,6 @@ contains
       call add_blank(page)
       call add_entry(page, 'field file', model%deck_name//'.xdmf, with .h5:'//text)
    end subroutine describe_fields
-
-   pure function contact_text(interaction) result(text)
-      type(interaction_t), intent(in) :: interaction
-      character(len=:), allocatable :: text
-
-      text = 'exact (delta = 0)'
-      if (interaction%delta > 0.0_wp) text = 'penalty, delta '//number(interaction%delta, DIGITS)//' [L^3/F]'
-   end function contact_text
 
    pure function friction_text(interaction) result(text)
       type(interaction_t), intent(in) :: interaction

@@ -321,7 +321,7 @@ contains
       end do
    end subroutine add_element_loads
 
-   !> The tractions of rigid surfaces without a reference node, over all pairs of each.
+   !> The tractions of rigid surfaces without a reference node, whose support or load is told, over all pairs of each.
    pure subroutine find_rigid_surfaces(model, frame, rigid)
       type(model_t), intent(in) :: model
       type(results_t), intent(in) :: frame
@@ -333,7 +333,9 @@ contains
       do i = 1, pair_count(frame)
          associate (master => model%pairs(i)%master)
             if (model%surfaces(master)%kind /= SURFACE_SEGMENTS .or. any(surfaces == master)) cycle
-            if (moves(model, master)) cycle
+            if (allocated(model%rigid_bodies)) then
+               if (any(model%rigid_bodies%surface == master)) cycle
+            end if
             surfaces = [surfaces, master]
          end associate
       end do
@@ -353,14 +355,5 @@ contains
          end do
       end do
    end subroutine find_rigid_surfaces
-
-   !> Whether a rigid surface has a reference node, whose support or load is told.
-   pure logical function moves(model, surface)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: surface
-
-      moves = .false.
-      if (allocated(model%rigid_bodies)) moves = any(model%rigid_bodies%surface == surface)
-   end function moves
 
 end module atrito_resultant_report

@@ -7,7 +7,7 @@ module atrito_screen
    use atrito_system, only: peak_memory
    use atrito_timers, only: phase_time_t, get_phases
    use atrito_model, only: model_t
-   use atrito_results, only: contact_result_t, results_t, history_t, observed_t, quantity_bound_t, scene_t, has_forces, last_frame
+   use atrito_results, only: results_t, history_t, observed_t, quantity_bound_t, scene_t, has_forces, last_frame
    use atrito_increments, only: list_increments, has_history, increment_name, ending_text
    use atrito_extreme_report, only: add_extremes
    use atrito_model_report, only: describe_counts, describe_instances, describe_steps, is_history
@@ -61,16 +61,23 @@ contains
       type(page_t), intent(out) :: page                   !< at most 24 lines of 79 columns
       type(string_t), intent(in), optional :: pictures(:) !< that were drawn, names without folder and ending
       integer :: after                              ! lines of the end
-      integer :: i, extra_lines
+      integer :: i, n_bounded, extra_lines
 
       call begin_deck_report(page, model, '')
       call add_rule(page, '-')
       associate (last => history%frames(last_frame(history)))
          call add_verdict(page, last, ending_text(history))
          call add_sizes(page, model, last)
-         if (has_history(model, history)) call add_item(page, 'history', history_text(model, history))
-         if (allocated(last%observed)) call add_observed(page, without_bounds(last))
-         if (allocated(last%bounded)) call add_bounded(page, last%bounded)
+         if (has_history(model, history)) then
+            call add_item(page, 'history', plural(size(model%steps, kind=ip), 'step', 'steps')//', '// &
+                          plural(size(list_increments(history), kind=ip), 'increment', 'increments')//'; below: '// &
+                          increment_name(last%step, last%increment, last%time))
+         end if
+         n_bounded = 0
+         if (allocated(last%bounded)) n_bounded = size(last%bounded)
+         ! bounds, which stand behind all else that is observed, have lines of their own
+         if (allocated(last%observed)) call add_observed(page, last%observed(:size(last%observed) - 2*n_bounded))
+         if (n_bounded > 0) call add_bounded(page, last%bounded)
          ! Lines of pictures, field files and the report.
          extra_lines = merge(1, 0, present(pictures))
          do i = 1, size(files)
@@ -94,19 +101,6 @@ contains
       end if
       call add_rule(page, '=')
    end subroutine compose_summary
-
-   !> `2 steps, 7 increments; the last is step 2, increment 4, time 2`
-   function history_text(model, history) result(text)
-      type(model_t), intent(in) :: model
-      type(history_t), intent(in) :: history
-      character(len=:), allocatable :: text
-
-      text = plural(size(model%steps, kind=ip), 'step', 'steps')//', '// &
-             plural(size(list_increments(history), kind=ip), 'increment', 'increments')//'; below: '
-      associate (last => history%frames(last_frame(history)))
-         text = text//increment_name(last%step, last%increment, last%time)
-      end associate
-   end function history_text
 
    !> `tip = -0.012, peak = 3.4`: what some lines hold; all are in the listing.
    subroutine add_observed(page, observed)
@@ -132,15 +126,6 @@ contains
       end do
       call add_item(page, trim(merge('observed', '        ', n == 0)), text)
    end subroutine add_observed
-
-   !> What is observed, but the bounds behind it, which have lines of their own.
-   pure function without_bounds(results) result(observed)
-      type(results_t), intent(in) :: results
-      type(observed_t), allocatable :: observed(:)
-
-      observed = results%observed
-      if (allocated(results%bounded)) observed = observed(:size(observed) - 2*size(results%bounded))
-   end function without_bounds
 
    !> A line for each of the first bounds, and what they are bounds of.
    subroutine add_bounded(page, bounded)
@@ -324,6 +309,7 @@ contains
       type(page_t), intent(inout) :: page
       type(results_t), intent(in) :: results
       integer(ip), intent(in) :: most               !< pairs on the screen; the rest is in the listing
+      type(pair_summary_t) :: summary
       integer(ip) :: i, shown
 
       if (pair_count(results) == 0) return
@@ -337,7 +323,14 @@ contains
       call add_line(page, row_text('contact pair', 'area [%]', 'uniform', 'triangular', &
                                    'from end ['//in_units(page%units, 'L')//']'))
       do i = 1, shown
-         call add_pair(page, to_text(i)//' '//pair_name(results, i), results%contact(i))
+         summary = summarise_pair(results%contact(i))
+         call add_line(page, row_text(to_text(i)//' '//pair_name(results, i), number(summary%effective_area_percent, DIGITS), &
+                                      number(summary%max_pressure_over_uniform, DIGITS), &
+                                      number(summary%max_pressure_over_triangular, DIGITS), &
+                                      number(summary%resultant_from_end, DIGITS)))
+         call add_line(page, left('  normal '//number(summary%normal_resultant, DIGITS)//', shear '// &
+                                  number(summary%shear_resultant, DIGITS)//' [F]; max. p '// &
+                                  number(summary%max_pressure, DIGITS)//'; '//states_text(results%contact(i), summary), WIDTH))
       end do
       if (shown < size(results%contact)) then
          call add_line(page, '... and '//to_text(size(results%contact, kind=ip) - shown)//' more pairs in the listing')
@@ -350,22 +343,6 @@ contains
 
       text = left(label, LABEL_WIDTH)//right(area, 10)//right(uniform, 10)//right(triangular, 11)//right(distance, 14)
    end function row_text
-
-   subroutine add_pair(page, label, contact)
-      type(page_t), intent(inout) :: page
-      character(len=*), intent(in) :: label
-      type(contact_result_t), intent(in) :: contact
-      type(pair_summary_t) :: summary
-
-      summary = summarise_pair(contact)
-      call add_line(page, row_text(label, number(summary%effective_area_percent, DIGITS), &
-                                   number(summary%max_pressure_over_uniform, DIGITS), &
-                                   number(summary%max_pressure_over_triangular, DIGITS), &
-                                   number(summary%resultant_from_end, DIGITS)))
-      call add_line(page, left('  normal '//number(summary%normal_resultant, DIGITS)//', shear '// &
-                               number(summary%shear_resultant, DIGITS)//' [F]; max. p '//number(summary%max_pressure, DIGITS)// &
-                               '; '//states_text(contact, summary), WIDTH))
-   end subroutine add_pair
 
    subroutine add_closing(page, folder, files)
       type(page_t), intent(inout) :: page
