@@ -28,10 +28,11 @@ contains
       type(contact_solution_t), intent(in) :: solution
       type(results_t), intent(inout) :: results     !< with displacements and reactions
       type(common_t) :: both
-      type(held_scene_t) :: primal
+      type(held_scene_t) :: primal, dual
       type(segment_t), allocatable :: balanced(:)
       character(len=:), allocatable :: why_not, why_this
       integer :: i
+      real(wp), allocatable :: u_of_loads(:, :)
 
       allocate (results%bounded(size(data%quantities)))
       call check_hypotheses(data, results%u, why_not)
@@ -48,7 +49,10 @@ contains
             else if (bound%name == POTENTIAL_ENERGY) then
                call bound_energy(data, primal, balanced, bound, why_this)
             else
-               call bound_one(data, acting, i, both, primal, bound, why_this)
+               call make_dual(data, acting%prescribed, data%quantities(i), both, primal%segments, dual, u_of_loads, bound%least, &
+                              why_this)
+               if (.not. allocated(why_this)) call find_stress(both, u_of_loads, dual, why_this)
+               if (.not. allocated(why_this)) call bound_between(both, primal, dual, bound, why_this)
             end if
             if (allocated(why_this)) bound%why_not = why_this
          end associate
@@ -114,22 +118,5 @@ contains
       bound%is_certified = has_digits(primal)
       if (.not. bound%is_certified) bound%why_not = 'round-off of the equilibrium'
    end subroutine bound_energy
-
-   subroutine bound_one(data, acting, i, both, primal, bound, why_not)
-      type(scene_data_t), intent(in) :: data
-      type(step_t), intent(in) :: acting
-      integer, intent(in) :: i                      !< which quantity
-      type(common_t), intent(in) :: both
-      type(held_scene_t), intent(in) :: primal
-      type(quantity_bound_t), intent(inout) :: bound
-      character(len=:), allocatable, intent(inout) :: why_not
-      type(held_scene_t) :: dual
-      real(wp), allocatable :: u_of_loads(:, :)
-
-      call make_dual(data, acting%prescribed, data%quantities(i), both, primal%segments, dual, u_of_loads, bound%least, &
-                     why_not)
-      if (.not. allocated(why_not)) call find_stress(both, u_of_loads, dual, why_not)
-      if (.not. allocated(why_not)) call bound_between(both, primal, dual, bound, why_not)
-   end subroutine bound_one
 
 end module atrito_bounded_quantities

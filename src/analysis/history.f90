@@ -72,13 +72,18 @@ contains
       type(run_t), target :: run
       type(progress_t) :: now
       integer(ip) :: k, first
+      logical :: has_one_increment
 
       allocate (history%rows(0), history%iterations(0))
       if (present(recorder)) run%recorder => recorder
       if (present(observer)) then
          if (observer%is_there) run%observer => observer
       end if
-      if (has_one_increment(model) .and. .not. is_recorded(run)) then
+      ! Whether there is one step that is one increment, which is not cut.
+      associate (control => model%steps(1)%increments)
+         has_one_increment = size(model%steps) == 1 .and. control%initial >= control%period .and. control%least >= control%period
+      end associate
+      if (has_one_increment .and. .not. is_recorded(run)) then
          call solve_only_increment(model, options, reporter, history, status, store, start)
          if (associated(run%observer) .and. is_ok(status)) call run%observer%observe(history%frames(1), &
                                                                                      history%rows)
@@ -110,15 +115,6 @@ contains
       call drop_assembled(run%data)
       call release_bodies(store)
    end subroutine solve_history
-
-   !> Whether there is one step that is one increment, which is not cut.
-   pure logical function has_one_increment(model)
-      type(model_t), intent(in) :: model
-
-      associate (control => model%steps(1)%increments)
-         has_one_increment = size(model%steps) == 1 .and. control%initial >= control%period .and. control%least >= control%period
-      end associate
-   end function has_one_increment
 
    subroutine solve_only_increment(model, options, reporter, history, status, store, start)
       type(model_t), intent(in), target :: model
@@ -206,6 +202,7 @@ contains
       type(contact_solution_t) :: solution
       real(wp) :: to
       logical :: may_be_cut
+      character(len=:), allocatable :: text
 
       associate (control => model%steps(k)%increments)
          if (now%increment == 0) now%length = control%initial
@@ -217,7 +214,11 @@ contains
                call end_early(k, now, run, history, status)
                return
             end if
-            call report_place(run%reporter, place_text(model, k, run%began, now), is_phase=now%increment == 1)
+            ! `step 2 of 3`, and behind its first increment `step 2 of 3, increment 5, 45 %` of the whole history.
+            text = 'step '//to_text(k)//' of '//to_text(size(model%steps, kind=ip))
+            if (now%increment > 1) text = text//', increment '//to_text(now%increment)//', '// &
+                                          to_text(int(100*(run%began + now%time)/sum(model%steps%increments%period), ip))//' %'
+            call report_place(run%reporter, text, is_phase=now%increment == 1)
             run%data%may_cut = is_longer_than_least(control, min(now%length, to - now%time))
             call try_increment(k, now%increment, to, store, run, results, solution, status)
             history%factorisations = history%factorisations + results%factorisations
@@ -264,7 +265,8 @@ contains
       results%step_time = to
       results%time = run%began + to
       results%ends_step = to >= run%data%step%increments%period
-      run%data%is_printed = is_wanted(run%data%step%requests, increment, results%ends_step)
+      ! Whether anything is printed of an increment.
+      run%data%is_printed = any(is_due(all_frequencies(run%data%step%requests%every), increment, results%ends_step))
       run%data%is_last = results%ends_step .and. k == size(run%data%model%steps)
       if (run%reporter%form == PROGRESS_LINE) run%data%reporter = run%reporter
       nullify (run%data%before)
@@ -276,15 +278,6 @@ contains
          call search_solutions(run%data, store, solution, results, others)
       end if
    end subroutine try_increment
-
-   !> Whether anything is printed of an increment.
-   pure logical function is_wanted(requests, increment, ends_step)
-      type(requests_t), intent(in) :: requests
-      integer(ip), intent(in) :: increment
-      logical, intent(in) :: ends_step
-
-      is_wanted = any(is_due(all_frequencies(requests%every), increment, ends_step))
-   end function is_wanted
 
    !> A converged increment: rest slips, rows, iterations, and the frame where it is printed.
    subroutine keep_increment(model, results, solution, run, history)
@@ -393,19 +386,6 @@ contains
 
       if (one%value > largest%value) largest = one
    end subroutine take_larger
-
-   !> `step 2 of 3`, and behind its first increment `step 2 of 3, increment 5, 45 %` of the whole history.
-   pure function place_text(model, k, began, now) result(text)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: k                   !< the step
-      real(wp), intent(in) :: began                  !< its time
-      type(progress_t), intent(in) :: now
-      character(len=:), allocatable :: text
-
-      text = 'step '//to_text(k)//' of '//to_text(size(model%steps, kind=ip))
-      if (now%increment > 1) text = text//', increment '//to_text(now%increment)//', '// &
-                                    to_text(int(100*(began + now%time)/sum(model%steps%increments%period), ip))//' %'
-   end function place_text
 
    !> One line an increment.
    subroutine tell(reporter, results, cuts)

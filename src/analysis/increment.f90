@@ -9,7 +9,7 @@
 !>         finish_form              results, then the final check; a check that fails is judged as no solution is
 !>       solve_without_near         not solved, and elements that nearly equal were taken as equal: again, each by itself
 !>       climb                      not solved: the rungs of the ladder, one after the other, until one finds a solution
-!>       let_out                    not solved, and a motion is idle: out of a thin wedge that friction might hold
+!>       attempt                    not solved, and a motion is idle: it lets out of a thin wedge that friction might hold
 !>
 !> A solution counts where the outer loop has converged and the final check, which knows nothing of how it was found, holds
 !> (is_solved). All attempts begin from the same results (begin_results) and loads (put_back_loads), so an attempt that fails leaves
@@ -67,6 +67,8 @@ contains
       type(status_t), intent(out) :: status                 !< STATUS_OK, STATUS_SINGULAR, STATUS_DECK or STATUS_INTERNAL
       type(controls_t) :: controls
       integer :: idle_form                                  ! in which a motion was idle, but no solution
+      type(contact_solution_t) :: tried
+      logical :: found
 
       controls = data%step%controls
       if (asked_form == CONTACT_AUTO) controls%most_entries = MOST_ENTRIES
@@ -81,7 +83,13 @@ contains
       if (is_ok(status) .and. .not. is_solved(results, status)) then
          call climb(data, asked_form, controls, store, results, solution, idle_form)
       end if
-      if (is_ok(status) .and. .not. is_solved(results, status)) call let_out(data, idle_form, controls, store, results, solution)
+      if (is_ok(status) .and. .not. is_solved(results, status) .and. data%line%has_friction .and. idle_form /= CONTACT_AUTO) then
+         ! A thin wedge lets out what nothing presses into it. With friction it may hold it as well, which the rungs would have
+         ! found: now the least motion goes as far as it must.
+         data%lets_out = .true.
+         call attempt(data, idle_form, controls, store, results, solution, tried, found)
+         data%lets_out = .false.
+      end if
       if (associated(data%viewer)) call data%viewer%view(data, results, solution)
       if (.not. data%keeps) call release_condensed(data, store)
       if (.not. is_solved(results, status)) call explain_range(data, results, status)
@@ -273,24 +281,6 @@ contains
          if (idle_form == CONTACT_AUTO .and. allocated(tried%inner%undetermined)) idle_form = RUNGS(i)%form
       end do
    end subroutine climb
-
-   !> A thin wedge lets out what nothing presses into it. With friction it may hold it as well, which the rungs would have found:
-   !> now the least motion goes as far as it must.
-   subroutine let_out(data, form, controls, store, results, solution)
-      type(scene_data_t), intent(inout) :: data
-      integer, intent(in) :: form                           !< in which a motion was idle; CONTACT_AUTO: in none
-      type(controls_t), intent(in) :: controls
-      type(body_cache_t), intent(inout) :: store
-      type(results_t), intent(inout) :: results
-      type(contact_solution_t), intent(inout) :: solution
-      type(contact_solution_t) :: tried
-      logical :: found
-
-      if (.not. data%line%has_friction .or. form == CONTACT_AUTO) return
-      data%lets_out = .true.
-      call attempt(data, form, controls, store, results, solution, tried, found)
-      data%lets_out = .false.
-   end subroutine let_out
 
    !> Solves once more. What is found counts when it converges and its law holds; else results and solution are as they were.
    subroutine attempt(data, form, controls, store, results, solution, tried, found)

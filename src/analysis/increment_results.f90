@@ -187,21 +187,17 @@ contains
       else
          call estimate_error(data%fem, results, strain_bound, data%wants_element_errors)
       end if
-      if (.not. (has_forces(results) .or. allocated(data%thermal))) call clear_stresses(results)
+      if (.not. (has_forces(results) .or. allocated(data%thermal))) then
+         ! Without forces stresses are round-off of displacements.
+         if (allocated(results%stress)) results%stress = 0.0_wp
+         if (allocated(results%nodal_stress)) results%nodal_stress = 0.0_wp
+         if (allocated(results%element_error)) results%element_error = 0.0_wp
+         results%error_estimate = 0.0_wp
+      end if
       call find_large(data%model, data%fem, strain_bound, results)
       call find_extremes(data%model%mesh, data%fem%bodies%of_node, data%points, results)
       call stop_phase('estimate')
    end subroutine complete_results
-
-   !> Without forces stresses are round-off of displacements.
-   pure subroutine clear_stresses(results)
-      type(results_t), intent(inout) :: results
-
-      if (allocated(results%stress)) results%stress = 0.0_wp
-      if (allocated(results%nodal_stress)) results%nodal_stress = 0.0_wp
-      if (allocated(results%element_error)) results%element_error = 0.0_wp
-      results%error_estimate = 0.0_wp
-   end subroutine clear_stresses
 
    !> Where there are several processes the others begin with the fields, while this one checks the equilibrium.
    subroutine begin_early(data, solution, u)
@@ -230,12 +226,21 @@ contains
       real(wp), allocatable :: contact(:, :)
       type(equilibrium_t) :: equilibrium
       real(wp) :: imbalance, others(3)
+      integer(ip) :: first(data%fem%bodies%n + 1), b
+      type(contact_sizes_t) :: sizes
 
       contact = contact_forces(data%fem, data%rows, data%line, solution)
       call move_alloc(u, results%u)
       allocate (results%reaction, mold=results%u)
+      ! The forces at the contact points and their pairs, and the rigid motions of the bodies.
+      sizes%force = data%line%weight*hypot(solution%p, solution%t)
+      sizes%pair = data%line%pair
+      sizes%rows = data%rows
+      sizes%had = data%had
+      first = first_motions(data%fem%bodies)
+      sizes%motion = [(sum(abs(solution%state%a(first(b):first(b + 1) - 1))), b=1, data%fem%bodies%n)]
       call check_equilibrium(data%fem, results%u, data%f, contact, data%held, results%reaction, equilibrium, &
-                             sizes_at_points(data, solution), data%thermal)
+                             sizes, data%thermal)
       imbalance = check_balance(data%fem, data%f, contact, data%rows, data%had)
       results%strain_energy = elastic_energy(data%fem, results%u, equilibrium%energy)
       if (allocated(data%step%requests%cuts)) then          ! rigid motions would cost digits
@@ -296,20 +301,5 @@ contains
          end associate
       end do
    end subroutine measure_sizes
-
-   !> The forces at the contact points and their pairs, and the rigid motions of the bodies.
-   pure function sizes_at_points(data, solution) result(sizes)
-      type(scene_data_t), intent(in) :: data
-      type(contact_solution_t), intent(in) :: solution
-      type(contact_sizes_t) :: sizes
-      integer(ip) :: first(data%fem%bodies%n + 1), b
-
-      sizes%force = data%line%weight*hypot(solution%p, solution%t)
-      sizes%pair = data%line%pair
-      sizes%rows = data%rows
-      sizes%had = data%had
-      first = first_motions(data%fem%bodies)
-      sizes%motion = [(sum(abs(solution%state%a(first(b):first(b + 1) - 1))), b=1, data%fem%bodies%n)]
-   end function sizes_at_points
 
 end module atrito_increment_results

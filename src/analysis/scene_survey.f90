@@ -76,7 +76,7 @@ contains
       end subroutine describe_body
 
       subroutine describe_pairs()
-         integer(ip) :: i
+         integer(ip) :: i, least, greatest
 
          allocate (scene%pairs(size(data%points)))
          do i = 1, size(data%points, kind=ip)
@@ -88,7 +88,17 @@ contains
                pair%n_left_out = points%n_left_out
                pair%matching = points%matching
                pair%master_is_rigid = points%rigid
-               if (points%n > 0) call find_gaps(data%model%mesh%node_id, points, pair)
+               if (points%n > 0) then
+                  ! The least and the greatest initial gap, and where.
+                  least = minloc(points%gap, 1, kind=ip)
+                  greatest = maxloc(points%gap, 1, kind=ip)
+                  pair%least_gap = points%gap(least)
+                  pair%greatest_gap = points%gap(greatest)
+                  pair%least_node = data%model%mesh%node_id(points%node(least))
+                  pair%greatest_node = data%model%mesh%node_id(points%node(greatest))
+                  pair%least_x = points%x(:, least)
+                  pair%greatest_x = points%x(:, greatest)
+               end if
             end associate
          end do
       end subroutine describe_pairs
@@ -134,23 +144,6 @@ contains
                         to_text(scene%n_normal + scene%n_tangential)//' contact unknowns,', scene%memory, memory, status, &
                         held=scene%memory_before)
    end subroutine check_scene
-
-   !> The least and the greatest initial gap, and where.
-   pure subroutine find_gaps(node_id, points, pair)
-      integer(ip), intent(in) :: node_id(:)                 !< the user's numbers of the nodes
-      type(contact_points_t), intent(in) :: points          !< one or more
-      type(pair_scene_t), intent(inout) :: pair
-      integer(ip) :: least, greatest
-
-      least = minloc(points%gap, 1, kind=ip)
-      greatest = maxloc(points%gap, 1, kind=ip)
-      pair%least_gap = points%gap(least)
-      pair%greatest_gap = points%gap(greatest)
-      pair%least_node = node_id(points%node(least))
-      pair%greatest_node = node_id(points%node(greatest))
-      pair%least_x = points%x(:, least)
-      pair%greatest_x = points%x(:, greatest)
-   end subroutine find_gaps
 
    !> What the scene does not need, in sentences.
    subroutine list_left_out(data, scene)

@@ -60,7 +60,13 @@ contains
       call start_phase('order')
       call prepare(model, store, options, data, status, step)
       if (data%is_distributed) then
-         if (is_ok(status)) call begin_distributed(options, data, scene, status)
+         ! The memory of all processes is asked for before their parts are made, for METIS, which cuts the scene, ends the program
+         ! when it has too little; and again before the parts are factored.
+         if (is_ok(status)) call describe_scene(data, scene)
+         if (is_ok(status)) call data%distribution%check_memory(data, options%memory, scene, status)
+         if (is_ok(status)) call assemble(data, status)
+         if (is_ok(status)) call describe_order(data, scene)
+         if (is_ok(status)) call data%distribution%check_memory(data, options%memory, scene, status)
          call stop_phase('order')
       else
          if (is_ok(status) .and. data%contact_form == CONTACT_SPARSE) call assemble(data, status)
@@ -72,22 +78,6 @@ contains
       if (is_ok(status)) call check_known_points(data, status)
       if (is_ok(status) .and. associated(data%viewer)) call data%viewer%check(data, status)
    end subroutine begin_scene
-
-   !> The memory of all processes is asked for before their parts are made, for METIS, which cuts the scene, ends the program when
-   !> it has too little; and again before the parts are factored.
-   subroutine begin_distributed(options, data, scene, status)
-      type(solve_options_t), intent(in) :: options
-      type(scene_data_t), intent(inout) :: data
-      type(scene_t), intent(inout) :: scene
-      type(status_t), intent(inout) :: status
-
-      call describe_scene(data, scene)
-      call data%distribution%check_memory(data, options%memory, scene, status)
-      if (is_ok(status)) call assemble(data, status)
-      if (.not. is_ok(status)) return
-      call describe_order(data, scene)
-      call data%distribution%check_memory(data, options%memory, scene, status)
-   end subroutine begin_distributed
 
    !> Solves. status: STATUS_SINGULAR (free motion, singular body, dependent points), STATUS_DECK (contradiction of prescribed
    !> displacements and hard contact; too little memory, which is told by a message). results%converged and law_holds tell the rest.

@@ -315,13 +315,19 @@ contains
       logical, intent(out) :: proven             !< no forces can balance the loads
       real(wp) :: rate(rows%n), terms(rows%n), by_friction(line%n), known_work, work_size, taken, handed_on, resisted
       real(wp) :: unsure(rows%n), rubbed(line%n)    ! by digits: rates, and of friction
-      integer(ip) :: i
+      integer(ip) :: i, j
 
       call multiply_rows(rows, v, rate, terms)
       call friction_work(line, rate, by_friction, known_work)
       excess = dot_product(rows%work, v) - known_work
       work_size = dot_product(rows%work_size, abs(v)) + known_work
-      unsure = rates_of_digits(rows, v)
+      ! What the digits of the deck may make each row see of a motion.
+      unsure = 0.0_wp
+      if (allocated(rows%doubt)) then
+         do j = 1, rows%n
+            unsure(j) = rows%doubt(j)*sum(abs(v(rows%column(rows%first(j):rows%first(j + 1) - 1))))
+         end do
+      end if
       call friction_work(line, unsure, rubbed)
       taken = 0.0_wp
       handed_on = 0.0_wp
@@ -341,20 +347,6 @@ contains
       end do
       proven = excess > CLEAR*work_size .and. excess > MANY_TIMES*taken .and. excess > SOME_TIMES*handed_on
    end subroutine motion_excess
-
-   !> What the digits of the deck may make each row see of a motion.
-   pure function rates_of_digits(rows, v) result(unsure)
-      type(motion_rows_t), intent(in) :: rows
-      real(wp), intent(in) :: v(:)
-      real(wp) :: unsure(rows%n)
-      integer(ip) :: i
-
-      unsure = 0.0_wp
-      if (.not. allocated(rows%doubt)) return
-      do i = 1, rows%n
-         unsure(i) = rows%doubt(i)*sum(abs(v(rows%column(rows%first(i):rows%first(i + 1) - 1))))
-      end do
-   end function rates_of_digits
 
    !> What a unit of each pressure force takes by friction, at its own point and where it is averaged; and what known ones take.
    pure subroutine friction_work(line, rate, by_friction, known_work)

@@ -54,7 +54,15 @@ contains
          driven = 'the load drives it with '
          if (subject == 'they') driven = 'the loads drive them with '
          if (mechanism%turns) then
-            text = turning_text(pairs, mechanism, subject)
+            text = 'the load turns it with '
+            if (subject == 'they') text = 'the loads turn them with '
+            text = text//driving(mechanism, .true.)//' about that point, and '
+            if (any(mechanism%slides) .and. mechanism%friction > SMALL*mechanism%load) then
+               text = text//'friction holds '//amount(mechanism%friction, .true.)//' at most, '//shortfall(mechanism, .true.)
+            else
+               text = text//'no pressure there holds '//trim(merge('it  ', 'them', subject == 'it'))
+            end if
+            text = text//joint_text(pairs, mechanism)
          else if (any(mechanism%slides)) then
             text = subject//trim(merge(' slides', ' slide ', subject == 'it'))//joint_text(pairs, mechanism)//', '//driven//'H = ' &
                    //driving(mechanism, .false.)//' and '//friction_text(line, mechanism)
@@ -123,23 +131,6 @@ contains
       if (i < min(n, MOST_NAMES)) text = ', '
       if (i == n - 1 .and. n <= MOST_NAMES .or. i == MOST_NAMES .and. n > MOST_NAMES) text = ' and '
    end function separator
-
-   function turning_text(pairs, mechanism, subject) result(text)
-      type(pair_scene_t), intent(in) :: pairs(:)
-      type(mechanism_t), intent(in) :: mechanism
-      character(len=*), intent(in) :: subject
-      character(len=:), allocatable :: text
-
-      text = 'the load turns it with '
-      if (subject == 'they') text = 'the loads turn them with '
-      text = text//driving(mechanism, .true.)//' about that point, and '
-      if (any(mechanism%slides) .and. mechanism%friction > SMALL*mechanism%load) then
-         text = text//'friction holds '//amount(mechanism%friction, .true.)//' at most, '//shortfall(mechanism, .true.)
-      else
-         text = text//'no pressure there holds '//trim(merge('it  ', 'them', subject == 'it'))
-      end if
-      text = text//joint_text(pairs, mechanism)
-   end function turning_text
 
    !> What friction can hold on a sliding motion.
    function friction_text(line, mechanism) result(text)

@@ -95,11 +95,17 @@ contains
       type(contact_solution_t), intent(inout) :: solution !< its motions change, and `r` of rows at a bound
       real(wp), intent(out) :: way(:)                     !< (k) that the bodies went [L]; 0 where they did not
       real(wp) :: basis(size(idle, 1), size(idle, 2)), gram(size(idle, 2), size(idle, 2)), values(size(idle, 2))
-      real(wp) :: rate(rows%n)
-      integer(ip) :: j, info
+      real(wp) :: rate(rows%n), product(size(idle, 1), size(idle, 2))
+      integer(ip) :: j, info, first(fem%bodies%n + 1), b
 
       way = 0.0_wp
-      gram = matmul(transpose(idle), times_metric(fem, metric, idle))
+      first = first_motions(fem%bodies)
+      do b = 1, fem%bodies%n
+         associate (n => first(b + 1) - first(b), at => first(b))
+            product(at:at + n - 1, :) = matmul(metric(:n, :n, b), idle(at:at + n - 1, :))
+         end associate
+      end do
+      gram = matmul(transpose(idle), product)
       call eigen_symmetric(gram, values, info)
       if (info /= 0) return
       basis = matmul(idle, gram)
@@ -119,20 +125,6 @@ contains
       where (solution%state%state /= FREE) solution%state%r = solution%state%r + rate
       solution%has_settled = .true.
    end subroutine take_least
-
-   pure function times_metric(fem, metric, v) result(product)
-      type(fem_t), intent(in) :: fem
-      real(wp), intent(in) :: metric(:, :, :), v(:, :)
-      real(wp) :: product(size(v, 1), size(v, 2))
-      integer(ip) :: first(fem%bodies%n + 1), b
-
-      first = first_motions(fem%bodies)
-      do b = 1, fem%bodies%n
-         associate (n => first(b + 1) - first(b), at => first(b))
-            product(at:at + n - 1, :) = matmul(metric(:n, :n, b), v(at:at + n - 1, :))
-         end associate
-      end do
-   end function times_metric
 
    !> The point s nearest to the wanted one at which no row that is at a bound would have to leave it: r + A s <= 0 at the lower
    !> bound, >= 0 at the upper one. By Hildreth's method: projections onto one condition after the other, each with a multiplier >=

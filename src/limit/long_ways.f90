@@ -77,7 +77,7 @@ contains
       type(contact_solution_t), intent(inout) :: solution !< motions, and r of open rows
       real(wp), parameter :: DEPENDENT = 1.0e-8_wp
       real(wp), allocatable :: g(:, :), off(:)
-      real(wp) :: back(rows%n_columns), moved(rows%n)
+      real(wp) :: back(rows%n_columns), moved(rows%n), value
       integer(ip), allocatable :: list(:)
       integer(ip) :: i, rank, info
 
@@ -89,7 +89,15 @@ contains
       do i = 1, size(list, kind=ip)
          associate (k => list(i))
             g(i, rows%column(rows%first(k):rows%first(k + 1) - 1)) = rows%value(rows%first(k):rows%first(k + 1) - 1)
-            off(i) = moved(k) - solution%bounds%d(k)*solution%state%q(k) + row_of(data, k, u)
+            ! What the displacements make of row i beyond its gap, rest slip or value [L].
+            associate (j => data%line%point(k))
+               if (data%line%normal(j) == k) then
+                  value = row_value(data%rows, j, data%rows%normal(:, j), u) - data%rows%gap(j)
+               else
+                  value = row_value(data%rows, j, data%rows%tangent(:, j), u) - rest_of(data%line, j)
+               end if
+            end associate
+            off(i) = moved(k) - solution%bounds%d(k)*solution%state%q(k) + value
          end associate
       end do
       call least_squares(g, off, back, DEPENDENT, rank, info)
@@ -98,20 +106,5 @@ contains
       call multiply_rows(rows, back, moved)
       where (solution%state%state /= FREE) solution%state%r = solution%state%r - moved
    end subroutine close_rows
-
-   !> What the displacements make of row i beyond its gap, rest slip or value [L].
-   pure real(wp) function row_of(data, i, u) result(value)
-      type(scene_data_t), intent(in) :: data
-      integer(ip), intent(in) :: i                  !< unknown force
-      real(wp), intent(in) :: u(:, :)
-
-      associate (j => data%line%point(i))
-         if (data%line%normal(j) == i) then
-            value = row_value(data%rows, j, data%rows%normal(:, j), u) - data%rows%gap(j)
-         else
-            value = row_value(data%rows, j, data%rows%tangent(:, j), u) - rest_of(data%line, j)
-         end if
-      end associate
-   end function row_of
 
 end module atrito_long_ways

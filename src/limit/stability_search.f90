@@ -229,6 +229,7 @@ contains
       real(wp), intent(out) :: x
       integer, intent(out) :: step
       real(wp) :: start, stand, fall, next
+      type(tried_t) :: known
 
       start = search%ends(standing)
       stand = abs(standing_value(search) - start)
@@ -243,7 +244,8 @@ contains
       step = STEP_SOLVE
       do
          x = start + signed(search, standing, stand + search%stride)
-         if (is_unsolved(search, x)) return
+         known = known_of(search, x)
+         if (known%solution == UNKNOWN) return
          search%stride = LITTLE_LESS*search%stride
       end do
    end subroutine narrow_solutions
@@ -459,15 +461,6 @@ contains
 
       has_fallen = one%balance == FALLS
    end function has_fallen
-
-   pure logical function is_unsolved(search, x)
-      type(search_t), intent(in) :: search
-      real(wp), intent(in) :: x
-      type(tried_t) :: known
-
-      known = known_of(search, x)
-      is_unsolved = known%solution == UNKNOWN
-   end function is_unsolved
 
    pure type(tried_t) function known_of(search, x) result(known)
       type(search_t), intent(in) :: search

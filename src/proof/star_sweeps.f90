@@ -50,10 +50,19 @@ contains
       type(outlines_t), intent(inout) :: outlines
       real(wp), intent(out) :: gain                 !< what the energy has become less by [F L]
       type(star_t) :: star
-      integer(ip) :: i
+      integer(ip) :: i, m
 
       gain = 0.0_wp
-      call make_room(maxval(chains%first(2:chains%n + 1) - chains%first(:chains%n)), outlines, star)
+      ! Room for the largest star.
+      associate (most => maxval(chains%first(2:chains%n + 1) - chains%first(:chains%n)))
+         m = 3 + 2*(2*outlines%degree - 1)
+         associate (n => 3 + (2*outlines%degree - 1)*(most + 1), numbers => size(outlines%a, 1))
+            allocate (star%class_of(most), star%corner(most), star%is_first(2, most), star%is_held(n), star%place(m, most), &
+                      star%at(m, most), star%sign_of(m, most), star%factor(n, n))
+            allocate (star%h(numbers, numbers, most), star%z(numbers, 3, most), source=0.0_wp)
+            allocate (star%slope(n), star%step(n), star%looks_first(2, most), star%looks_held(n))
+         end associate
+      end associate
       do i = 1, chains%n
          associate (first => chains%first(i), last => chains%first(i + 1) - 1)
             call take_star(mesh, sides, known, chains%element(first:last), chains%corner(first:last), &
@@ -62,22 +71,6 @@ contains
          end associate
       end do
    end subroutine sweep_stars
-
-   !> Room for the largest star.
-   pure subroutine make_room(most, outlines, star)
-      integer(ip), intent(in) :: most               !< elements
-      type(outlines_t), intent(in) :: outlines
-      type(star_t), intent(inout) :: star
-      integer(ip) :: m
-
-      m = 3 + 2*(2*outlines%degree - 1)
-      associate (n => 3 + (2*outlines%degree - 1)*(most + 1), numbers => size(outlines%a, 1))
-         allocate (star%class_of(most), star%corner(most), star%is_first(2, most), star%is_held(n), star%place(m, most), &
-                   star%at(m, most), star%sign_of(m, most), star%factor(n, n))
-         allocate (star%h(numbers, numbers, most), star%z(numbers, 3, most), source=0.0_wp)
-         allocate (star%slope(n), star%step(n), star%looks_first(2, most), star%looks_held(n))
-      end associate
-   end subroutine make_room
 
    !> The least energy over the numbers of one star.
    !>

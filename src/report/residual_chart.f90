@@ -31,6 +31,8 @@ contains
       type(page_t), intent(inout) :: page           !< gets lines of SVG
       type(table_file_t), intent(in) :: iterations  !< iterations.tab
       type(chart_t) :: chart
+      integer :: power, stride
+      character(len=:), allocatable :: y
 
       call collect(iterations, chart)
       if (size(chart%row) < 2) return
@@ -38,7 +40,15 @@ contains
       call add_line(page, '<svg class="chart" viewBox="0 0 720 270" role="img" aria-label="residual over '// &
                     to_text(chart%n_rows)//' linear solves, from '//to_text(10.0_wp**chart%power(1), 2)//' to '// &
                     to_text(10.0_wp**chart%power(size(chart%power)), 2)//'">')
-      call add_axes(page, chart)
+      ! A line and a label every few powers of ten, and the ends of the axis below.
+      stride = (chart%high - chart%low)/MOST_MARKS + 1
+      do power = chart%low, chart%high, stride
+         y = place(height(chart, real(power, wp)))
+         call add_line(page, '<path class="grid" d="M'//place(LEFT)//' '//y//'H'//place(RIGHT)//'"/>')
+         call add_line(page, '<text x="62" y="'//y//'" dy="4" text-anchor="end">1e'//to_text(int(power, ip))//'</text>')
+      end do
+      call add_line(page, '<text x="'//place(LEFT)//'" y="240" text-anchor="middle">1</text>')
+      call add_line(page, '<text x="'//place(RIGHT)//'" y="240" text-anchor="middle">'//to_text(chart%n_rows)//'</text>')
       call add_curves(page, chart)
       call add_line(page, '<text x="385" y="262" text-anchor="middle">linear solve</text>')
       call add_line(page, '<text x="16" y="118" text-anchor="middle" transform="rotate(-90 16 118)">residual</text>')
@@ -78,23 +88,6 @@ contains
       chart%low = floor(minval(chart%power))
       chart%high = max(chart%low + 1, ceiling(maxval(chart%power)))
    end subroutine collect
-
-   !> A line and a label every few powers of ten, and the ends of the axis below.
-   subroutine add_axes(page, chart)
-      type(page_t), intent(inout) :: page
-      type(chart_t), intent(in) :: chart
-      integer :: power, stride
-      character(len=:), allocatable :: y
-
-      stride = (chart%high - chart%low)/MOST_MARKS + 1
-      do power = chart%low, chart%high, stride
-         y = place(height(chart, real(power, wp)))
-         call add_line(page, '<path class="grid" d="M'//place(LEFT)//' '//y//'H'//place(RIGHT)//'"/>')
-         call add_line(page, '<text x="62" y="'//y//'" dy="4" text-anchor="end">1e'//to_text(int(power, ip))//'</text>')
-      end do
-      call add_line(page, '<text x="'//place(LEFT)//'" y="240" text-anchor="middle">1</text>')
-      call add_line(page, '<text x="'//place(RIGHT)//'" y="240" text-anchor="middle">'//to_text(chart%n_rows)//'</text>')
-   end subroutine add_axes
 
    !> A line an increment, and dots where they are few.
    subroutine add_curves(page, chart)

@@ -27,18 +27,37 @@ contains
       type(contact_solution_t), intent(in) :: solution !< its last states are read
       type(results_t), intent(inout) :: results        !< get unsettled, and more in the verdict
       integer(ip), allocatable :: order(:)
-      integer(ip) :: i
+      integer(ip) :: i, j
+      character(len=:), allocatable :: text
 
       if (solution%converged .or. .not. allocated(solution%history%states)) return
       order = restless_points(solution%history%states(:, :solution%history%kept))
       allocate (results%unsettled(size(order)))
       do i = 1, size(order, kind=ip)
-         results%unsettled(i) = point_of(mesh, points, rows, line%point(order(i)))
+         associate (j => line%point(order(i)), point => results%unsettled(i))
+            point%pair = 1
+            point%point = j
+            do while (point%point > points(point%pair)%n)
+               point%point = point%point - points(point%pair)%n
+               point%pair = point%pair + 1
+            end do
+            point%node = mesh%node_id(rows%node(rows%first(j)))
+            point%x = points(point%pair)%x(:, point%point)
+         end associate
          results%unsettled(i)%states = state_letters(solution%history%states(order(i), :solution%history%kept))
       end do
       if (.not. allocated(results%verdict)) results%verdict = 'not converged'
       if (size(order) > 0) then
-         results%verdict = results%verdict//'; '//unsettled_text(results%unsettled)
+         if (size(results%unsettled) == 1) then
+            text = '1 point is unsettled: node '//to_text(results%unsettled(1)%node)
+         else
+            text = to_text(size(results%unsettled, kind=ip))//' points are unsettled: nodes '//to_text(results%unsettled(1)%node)
+            do j = 2, min(size(results%unsettled, kind=ip), MOST_NAMED)
+               text = text//', '//to_text(results%unsettled(j)%node)
+            end do
+            if (size(results%unsettled) > MOST_NAMED) text = text//', ...'
+         end if
+         results%verdict = results%verdict//'; '//text
       else if (line%has_friction .and. allocated(solution%p)) then
          i = maxloc(abs(friction_bound(line, solution%p) - solution%tau), dim=1, kind=ip)
          results%verdict = results%verdict//'; no point changes its state, the friction bound is off most at node ' &
@@ -63,38 +82,5 @@ contains
          order = [order, pack([(i, i=1, size(changes, kind=ip))], changes == j)]
       end do
    end function restless_points
-
-   pure function point_of(mesh, points, rows, j) result(point)
-      type(mesh_t), intent(in) :: mesh
-      type(contact_points_t), intent(in) :: points(:)
-      type(contact_rows_t), intent(in) :: rows
-      integer(ip), intent(in) :: j                  !< of the contact line
-      type(unsettled_t) :: point
-
-      point%pair = 1
-      point%point = j
-      do while (point%point > points(point%pair)%n)
-         point%point = point%point - points(point%pair)%n
-         point%pair = point%pair + 1
-      end do
-      point%node = mesh%node_id(rows%node(rows%first(j)))
-      point%x = points(point%pair)%x(:, point%point)
-   end function point_of
-
-   function unsettled_text(unsettled) result(text)
-      type(unsettled_t), intent(in) :: unsettled(:)     !< at least one
-      character(len=:), allocatable :: text
-      integer(ip) :: i
-
-      if (size(unsettled) == 1) then
-         text = '1 point is unsettled: node '//to_text(unsettled(1)%node)
-      else
-         text = to_text(size(unsettled, kind=ip))//' points are unsettled: nodes '//to_text(unsettled(1)%node)
-         do i = 2, min(size(unsettled, kind=ip), MOST_NAMED)
-            text = text//', '//to_text(unsettled(i)%node)
-         end do
-         if (size(unsettled) > MOST_NAMED) text = text//', ...'
-      end if
-   end function unsettled_text
 
 end module atrito_unsettled_points

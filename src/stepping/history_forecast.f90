@@ -48,7 +48,7 @@ contains
       bytes = copies*frame_bytes() + OPEN_TABLES
       do k = 1, size(model%steps)
          bytes = bytes + increments_of(model%steps(k))*(ITERATION_ROWS + PAIR_ROW*size(model%pairs, kind=lp)) &
-                 + printed_of(model%steps(k))*FRAME_NUMBERS
+                 + maxval(due_of(model%steps(k), all_frequencies(model%steps(k)%requests%every)))*FRAME_NUMBERS
       end do
 
    contains
@@ -89,13 +89,6 @@ contains
          if (control%initial > control%period/control%most) increments_of = max(1_lp, int(control%period/control%initial, lp))
       end associate
    end function increments_of
-
-   !> Those of which anything is printed.
-   pure integer(lp) function printed_of(step)
-      type(step_t), intent(in) :: step
-
-      printed_of = maxval(due_of(step, all_frequencies(step%requests%every)))
-   end function printed_of
 
    pure elemental integer(lp) function due_of(step, every)
       type(step_t), intent(in) :: step

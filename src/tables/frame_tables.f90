@@ -85,6 +85,8 @@ contains
       type(scales_t), intent(in) :: own(:)          !< of each pair
       character(len=*), intent(in) :: name          !< of the table
       type(table_t), intent(out) :: table           !< rows of the frame; the last column is their increment
+      integer(ip), allocatable :: node(:)
+      integer(ip) :: n
 
       select case (name)
       case ('contact')
@@ -92,7 +94,13 @@ contains
       case ('nodes', 'nodal_stress')
          call build_nodes(model, frame, scales, name, table)
       case ('reactions')
-         call build_reactions(model, frame, scales, table)
+         node = places(model%steps(frame%step)%requests%node_rf, model%mesh%n_nodes)
+         node = pack(node, any(frame%prescribed(:, node), dim=1))
+         n = size(node, kind=ip)
+         call begin_step_table(table, 'reactions', 'a row a node with a prescribed displacement', n, frame%step)
+         call add_integers(table, 'node', model%mesh%node_id(node))
+         call add_reals(table, 'r1', 'F', frame%reaction(1, node), scales%force)
+         call add_reals(table, 'r2', 'F', frame%reaction(2, node), scales%force)
       case ('stress')
          call build_stress(model, frame, scales, table)
       case ('bodies')
@@ -225,23 +233,6 @@ contains
       takes_all = .true.
       if (allocated(mask)) takes_all = all(mask)
    end function takes_all
-
-   subroutine build_reactions(model, results, scales, table)
-      type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
-      type(scales_t), intent(in) :: scales
-      type(table_t), intent(out) :: table
-      integer(ip), allocatable :: node(:)
-      integer(ip) :: n
-
-      node = places(model%steps(results%step)%requests%node_rf, model%mesh%n_nodes)
-      node = pack(node, any(results%prescribed(:, node), dim=1))
-      n = size(node, kind=ip)
-      call begin_step_table(table, 'reactions', 'a row a node with a prescribed displacement', n, results%step)
-      call add_integers(table, 'node', model%mesh%node_id(node))
-      call add_reals(table, 'r1', 'F', results%reaction(1, node), scales%force)
-      call add_reals(table, 'r2', 'F', results%reaction(2, node), scales%force)
-   end subroutine build_reactions
 
    !> Places of the nodes asked for; all where nothing is said.
    pure function places(mask, n) result(list)

@@ -31,7 +31,13 @@ contains
       allocate (names(n), values(n))
       do i = 1, n
          names(i)%s = trim(list(i)%name)
-         values(i)%s = quantity_text(list(i), digits)
+         if (list(i)%is_count) then
+            values(i)%s = to_text(nint(list(i)%value, ip))
+         else if (abs_is_below(list(i)%value, ZERO_SHARE*list(i)%scale)) then
+            values(i)%s = '0'
+         else
+            values(i)%s = trimmed_real(list(i)%value, digits)
+         end if
       end do
       call begin_table(table, 'summary', 'a row a quantity, by pair; pair 0 is the step', n)
       call add_integers(table, 'step', [frame%step])
@@ -60,20 +66,6 @@ contains
          list(n*n_each + 1:) = of_step
       end associate
    end subroutine list_quantities
-
-   pure function quantity_text(quantity, digits) result(text)
-      type(quantity_t), intent(in) :: quantity
-      integer, intent(in) :: digits
-      character(len=:), allocatable :: text
-
-      if (quantity%is_count) then
-         text = to_text(nint(quantity%value, ip))
-      else if (abs_is_below(quantity%value, ZERO_SHARE*quantity%scale)) then
-         text = '0'
-      else
-         text = trimmed_real(quantity%value, digits)
-      end if
-   end function quantity_text
 
    !> Notes the names of a frame's quantities by their dimensions, each once, in the order in which they come.
    subroutine note_quantities(frame, own, names)

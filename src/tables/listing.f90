@@ -113,9 +113,19 @@ contains
       type(page_t), intent(inout) :: page
       type(results_t), intent(in) :: results
       type(string_t), intent(in), optional :: pictures(:)
+      type(string_t), allocatable :: lines(:)
+      integer(ip) :: i
+      integer :: j, k
+      type(phase_time_t), allocatable :: phases(:)
 
       call add_heading(page, '8  MESSAGES')
-      call add_messages(page)
+      if (count_messages() == 0) call add_line(page, '   none')
+      do i = 1, count_messages()
+         lines = format_message(get_message(i))
+         do j = 1, size(lines)
+            call add_paragraph(page, trim(lines(j)%s), merge(3, 6, j == 1))
+         end do
+      end do
       if (present(pictures)) then
          call add_blank(page)
          call add_entry(page, 'plots, drawn after this listing', 'plots/')
@@ -125,7 +135,14 @@ contains
       call add_entry(page, 'estimated error', number(results%error_estimate, DIGITS)//' % of the energy norm')
       call add_bound(page, results%error_bound)
       if (allocated(results%bounded)) call add_bounded(page, results)
-      call add_times(page)
+      call add_entry(page, 'peak memory', bytes(peak_memory()))
+      call add_blank(page)
+      call add_line(page, '   '//left('phase', 24)//right('wall [s]', 12)//right('cpu [s]', 12))
+      phases = get_phases()
+      do k = 1, size(phases)
+         call add_line(page, time_line(trim(phases(k)%name), phases(k)%wall, phases(k)%cpu))
+      end do
+      call add_line(page, time_line('total', sum(phases%wall), sum(phases%cpu)))
    end subroutine add_end
 
    !> What is proved of the error, for what, and of which parts it is made.
@@ -393,36 +410,6 @@ contains
                                                                    'DOES NOT HOLD, or was not reached', &
                                                                    results%converged .and. results%law_holds)))
    end subroutine add_equilibrium
-
-   subroutine add_messages(page)
-      type(page_t), intent(inout) :: page
-      type(string_t), allocatable :: lines(:)
-      integer(ip) :: i
-      integer :: j
-
-      if (count_messages() == 0) call add_line(page, '   none')
-      do i = 1, count_messages()
-         lines = format_message(get_message(i))
-         do j = 1, size(lines)
-            call add_paragraph(page, trim(lines(j)%s), merge(3, 6, j == 1))
-         end do
-      end do
-   end subroutine add_messages
-
-   subroutine add_times(page)
-      type(page_t), intent(inout) :: page
-      type(phase_time_t), allocatable :: phases(:)
-      integer :: i
-
-      call add_entry(page, 'peak memory', bytes(peak_memory()))
-      call add_blank(page)
-      call add_line(page, '   '//left('phase', 24)//right('wall [s]', 12)//right('cpu [s]', 12))
-      phases = get_phases()
-      do i = 1, size(phases)
-         call add_line(page, time_line(trim(phases(i)%name), phases(i)%wall, phases(i)%cpu))
-      end do
-      call add_line(page, time_line('total', sum(phases%wall), sum(phases%cpu)))
-   end subroutine add_times
 
    pure function time_line(name, wall, cpu) result(text)
       character(len=*), intent(in) :: name

@@ -230,7 +230,7 @@ contains
       type(model_t), intent(in) :: model             !< its steps are read
       integer(ip), intent(in), optional :: most      !< so many of the first; left out: all
       character(len=:), allocatable :: title
-      integer(ip) :: k, n
+      integer(ip) :: k, n, i
 
       n = size(model%steps, kind=ip)
       do k = 1, n
@@ -245,7 +245,16 @@ contains
             call add_line(page, '   step '//to_text(k)//title)
          end if
          call describe_increments(page, model%steps(k), n)
-         call describe_overlaps(page, model, model%steps(k))
+         ! Overlaps that *CONTACT INTERFERENCE resolves, until they are.
+         if (allocated(model%steps(k)%overlap)) then
+            do i = 1, size(model%pairs, kind=ip)
+               if (model%steps(k)%overlap_from(i) <= 0.0_wp) cycle
+               call add_entry(page, 'overlap of pair '//to_text(i), 'up to '// &
+                              number(max(0.0_wp, -minval(model%points(i)%gap)), DIGITS)//' [L], '// &
+                              trim(merge('allowed                 ', 'resolved over the step  ', &
+                                         model%steps(k)%overlap(i) > 0.0_wp)))
+            end do
+         end if
          call describe_supports(page, model, k)
          call describe_loads(page, model, k)
       end do
@@ -282,22 +291,6 @@ contains
       call add_entry(page, 'increments', text)
       if (step%at_once) call add_entry(page, 'loads', 'at once, not over the step')
    end subroutine describe_increments
-
-   !> Overlaps that *CONTACT INTERFERENCE resolves, until they are.
-   subroutine describe_overlaps(page, model, step)
-      type(page_t), intent(inout) :: page
-      type(model_t), intent(in) :: model
-      type(step_t), intent(in) :: step
-      integer(ip) :: i
-
-      if (.not. allocated(step%overlap)) return
-      do i = 1, size(model%pairs, kind=ip)
-         if (step%overlap_from(i) <= 0.0_wp) cycle
-         call add_entry(page, 'overlap of pair '//to_text(i), 'up to '// &
-                        number(max(0.0_wp, -minval(model%points(i)%gap)), DIGITS)//' [L], '// &
-                        trim(merge('allowed                 ', 'resolved over the step  ', step%overlap(i) > 0.0_wp)))
-      end do
-   end subroutine describe_overlaps
 
    subroutine describe_supports(page, model, k)
       type(page_t), intent(inout) :: page

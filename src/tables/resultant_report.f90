@@ -287,10 +287,17 @@ contains
       type(model_t), intent(in) :: model
       type(step_t), intent(in) :: now               !< with the loads of a moment
       type(sums_t), intent(inout) :: sums
+      integer(ip) :: i
 
       call add_forces(model, now%node_loads, sums)
       call add_forces(model, now%rigid_loads, sums)
-      call add_element_loads(model, now%element_loads, sums)
+      if (allocated(now%element_loads%source)) then
+         do i = 1, now%element_loads%n
+            if (now%element_loads%source(i) == 0) cycle
+            sums%acts(now%element_loads%source(i)) = .true.
+            call add_element_load(model, now%element_loads, i, sums%of(now%element_loads%source(i)))
+         end do
+      end if
    end subroutine add_loads_of
 
    !> Forces at nodes, and moments at reference nodes. The force of a pre-tension section balances itself.
@@ -306,20 +313,6 @@ contains
          call add(loads%source(i), loads%dof(i), loads%value(i), model%mesh%x(:, loads%node(i)), sums)
       end do
    end subroutine add_forces
-
-   pure subroutine add_element_loads(model, loads, sums)
-      type(model_t), intent(in) :: model
-      type(element_load_t), intent(in) :: loads
-      type(sums_t), intent(inout) :: sums
-      integer(ip) :: i
-
-      if (.not. allocated(loads%source)) return
-      do i = 1, loads%n
-         if (loads%source(i) == 0) cycle
-         sums%acts(loads%source(i)) = .true.
-         call add_element_load(model, loads, i, sums%of(loads%source(i)))
-      end do
-   end subroutine add_element_loads
 
    !> The tractions of rigid surfaces without a reference node, whose support or load is told, over all pairs of each.
    pure subroutine find_rigid_surfaces(model, frame, rigid)

@@ -62,6 +62,8 @@ contains
       type(string_t), intent(in), optional :: pictures(:) !< that were drawn, names without folder and ending
       integer :: after                              ! lines of the end
       integer :: i, n_bounded, extra_lines
+      logical :: has_trail
+      integer(ip) :: most
 
       call begin_deck_report(page, model, '')
       call add_rule(page, '-')
@@ -77,7 +79,14 @@ contains
          if (allocated(last%bounded)) n_bounded = size(last%bounded)
          ! bounds, which stand behind all else that is observed, have lines of their own
          if (allocated(last%observed)) call add_observed(page, last%observed(:size(last%observed) - 2*n_bounded))
-         if (n_bounded > 0) call add_bounded(page, last%bounded)
+         ! A line for each of the first bounds, and what they are bounds of.
+         do i = 1, min(n_bounded, MOST_OBSERVED)
+            associate (bound => last%bounded(i))
+               call add_item(page, trim(merge('bounded', '       ', i == 1)), trim(bound%name)//' '//bound_text(bound))
+            end associate
+         end do
+         if (n_bounded > MOST_OBSERVED) call add_item(page, '', 'and '//to_text(int(n_bounded - MOST_OBSERVED, ip))// &
+                                                      ' more in the listing')
          ! Lines of pictures, field files and the report.
          extra_lines = merge(1, 0, present(pictures))
          do i = 1, size(files)
@@ -88,10 +97,19 @@ contains
             call add_extremes(page, last)
             call add_supports(page, model, last)
          end if
-         if (has_trail(last)) then                  ! the pairs of the last iterate say less than how it got there
+         ! Whether the way of an iteration that did not converge is known.
+         has_trail = .not. last%converged .and. last%scene%outer_loop .and. allocated(last%iterations)
+         if (has_trail) has_trail = size(last%iterations) > 0
+         if (has_trail) then                  ! the pairs of the last iterate say less than how it got there
             call add_trail(page, last, SCREEN_LINES - page%n - after)
          else
-            call add_pairs(page, last, most_pairs(pair_count(last), SCREEN_LINES - page%n - after))
+            ! How many pairs there is room for: two lines each behind a head of three, and one that tells of more.
+            associate (room => SCREEN_LINES - page%n - after)
+               most = int((room - 3)/2, ip)
+               if (most < pair_count(last)) most = int((room - 4)/2, ip)
+               most = max(0_ip, most)
+            end associate
+            call add_pairs(page, last, most)
          end if
       end associate
       call add_rule(page, '-')
@@ -127,19 +145,6 @@ contains
       call add_item(page, trim(merge('observed', '        ', n == 0)), text)
    end subroutine add_observed
 
-   !> A line for each of the first bounds, and what they are bounds of.
-   subroutine add_bounded(page, bounded)
-      type(page_t), intent(inout) :: page
-      type(quantity_bound_t), intent(in) :: bounded(:)
-      integer :: i, n
-
-      n = min(size(bounded), MOST_OBSERVED)
-      do i = 1, n
-         call add_item(page, trim(merge('bounded', '       ', i == 1)), trim(bounded(i)%name)//' '//bound_text(bounded(i)))
-      end do
-      if (n < size(bounded)) call add_item(page, '', 'and '//to_text(size(bounded, kind=ip) - n)//' more in the listing')
-   end subroutine add_bounded
-
    subroutine add_verdict(page, results, ending)
       type(page_t), intent(inout) :: page
       type(results_t), intent(in) :: results
@@ -161,8 +166,8 @@ contains
       type(page_t), intent(inout) :: page
       type(model_t), intent(in) :: model
       type(results_t), intent(in) :: results
-      character(len=:), allocatable :: large, unique, solvers
-      integer(ip) :: i
+      character(len=:), allocatable :: large, unique, solvers, text
+      integer(ip) :: i, n
 
       associate (scene => results%scene)
          ! millions would not fit beside the counts of elements and nodes, which are as many then
@@ -170,7 +175,16 @@ contains
                        plural(model%mesh%n_elements, 'element', 'elements')//', '// &
                        plural(model%mesh%n_nodes, 'node', 'nodes')//', '//to_text(scene%n_dofs)// &
                        ' '//trim(merge('free dofs         ', 'free displacements', scene%n_dofs >= 1000000)))
-         call add_item(page, 'contact', contact_text(model, scene))
+         n = 0
+         if (allocated(scene%pairs)) n = size(scene%pairs, kind=ip)
+         if (n == 0) then
+            text = 'none'
+         else
+            text = plural(n, 'pair', 'pairs')//', '//plural(sum(scene%pairs%n_points), 'point', 'points')//': '// &
+                   to_text(scene%n_normal - scene%n_rows)//' normal and '//to_text(scene%n_tangential)//' tangential unknowns'
+         end if
+         if (len(joined_text(model)) > 0) text = text//'; '//joined_text(model)
+         call add_item(page, 'contact', text)
          ! The solvers in use, each once.
          solvers = ''
          if (is_sparse_form(scene)) solvers = 'sparse'
@@ -197,23 +211,6 @@ contains
       end if
    end subroutine add_sizes
 
-   pure function contact_text(model, scene) result(text)
-      type(model_t), intent(in) :: model
-      type(scene_t), intent(in) :: scene
-      character(len=:), allocatable :: text
-      integer(ip) :: n
-
-      n = 0
-      if (allocated(scene%pairs)) n = size(scene%pairs, kind=ip)
-      if (n == 0) then
-         text = 'none'
-      else
-         text = plural(n, 'pair', 'pairs')//', '//plural(sum(scene%pairs%n_points), 'point', 'points')//': '// &
-                to_text(scene%n_normal - scene%n_rows)//' normal and '//to_text(scene%n_tangential)//' tangential unknowns'
-      end if
-      if (len(joined_text(model)) > 0) text = text//'; '//joined_text(model)
-   end function contact_text
-
    !> Whether all bodies are in one sparse matrix.
    pure logical function is_sparse_form(scene)
       type(scene_t), intent(in) :: scene
@@ -238,24 +235,6 @@ contains
          text = ', no outer loop'//text
       end if
    end function iteration_text
-
-   !> How many pairs there is room for: two lines each behind a head of three, and one that tells of more.
-   pure integer(ip) function most_pairs(n, room) result(most)
-      integer(ip), intent(in) :: n                  !< pairs there are
-      integer, intent(in) :: room                   !< lines
-
-      most = int((room - 3)/2, ip)
-      if (most < n) most = int((room - 4)/2, ip)
-      most = max(0_ip, most)
-   end function most_pairs
-
-   !> Whether the way of an iteration that did not converge is known.
-   pure logical function has_trail(results)
-      type(results_t), intent(in) :: results
-
-      has_trail = .not. results%converged .and. results%scene%outer_loop .and. allocated(results%iterations)
-      if (has_trail) has_trail = size(results%iterations) > 0
-   end function has_trail
 
    !> The last outer iterations, and the points that are unsettled; all of them are in the listing.
    subroutine add_trail(page, results, room)
