@@ -34,6 +34,7 @@ contains
       type(report_t), intent(out) :: report         !< all but the command
       type(library_t), allocatable :: libraries(:)
       integer(ip) :: i
+      type(phase_time_t), allocatable :: phases(:)
 
       report%what = 'run'
       report%deck = model%deck_path
@@ -43,7 +44,21 @@ contains
       report%pictures = pictures
       associate (last => history%frames(last_frame(history)))
          call add_verdict(last, ending_text(history), report)
-         call add_facts_of(model, history, last, report%facts)
+         allocate (report%facts(0))
+         if (has_history(model, history)) then
+            call add_fact(report%facts, 'history', plural(size(model%steps, kind=ip), 'step', 'steps')//', '// &
+                          plural(size(list_increments(history), kind=ip), 'increment', 'increments'), &
+                          'below: '//increment_name(last%step, last%increment, last%time))
+         end if
+         call add_fact(report%facts, 'loads, sum along 1 and 2', force_text(last%balance, last%balance%applied))
+         call add_fact(report%facts, 'support reactions, sum', force_text(last%balance, last%balance%reactions))
+         if (maxval(abs(last%balance%rigid)) > 0.0_wp) call add_fact(report%facts, 'upon rigid surfaces, sum', &
+                                                                     force_text(last%balance, last%balance%rigid))
+         call add_fact(report%facts, 'model', plural(model%mesh%n_elements, 'element', 'elements')//', '// &
+                       plural(model%mesh%n_nodes, 'node', 'nodes'), plural(body_count(last%scene), 'body', 'bodies')//', '// &
+                       to_text(last%scene%n_dofs)//' free displacements'//points_text(last%scene))
+         phases = get_phases()
+         call add_fact(report%facts, 'processor time', to_text(sum(phases%cpu), 3)//' s', bytes(peak_memory())//' of memory')
          report%units = model%units
          allocate (report%pairs(0), report%versions(0))
          do i = 1, pair_count(last)
@@ -83,28 +98,6 @@ contains
       call append_string(report%details, plural(count_messages(SEVERITY_WARNING), 'warning', 'warnings')//', '// &
                          plural(count_messages(SEVERITY_NOTE), 'note', 'notes')//'.')
    end subroutine add_verdict
-
-   subroutine add_facts_of(model, history, last, facts)
-      type(model_t), intent(in) :: model
-      type(history_t), intent(in) :: history
-      type(results_t), intent(in) :: last
-      type(fact_t), allocatable, intent(inout) :: facts(:)
-      type(phase_time_t), allocatable :: phases(:)
-
-      allocate (facts(0))
-      if (has_history(model, history)) call add_fact(facts, 'history', plural(size(model%steps, kind=ip), 'step', 'steps')//', '// &
-                                                     plural(size(list_increments(history), kind=ip), 'increment', 'increments'), &
-                                                     'below: '//increment_name(last%step, last%increment, last%time))
-      call add_fact(facts, 'loads, sum along 1 and 2', force_text(last%balance, last%balance%applied))
-      call add_fact(facts, 'support reactions, sum', force_text(last%balance, last%balance%reactions))
-      if (maxval(abs(last%balance%rigid)) > 0.0_wp) call add_fact(facts, 'upon rigid surfaces, sum', &
-                                                                  force_text(last%balance, last%balance%rigid))
-      call add_fact(facts, 'model', plural(model%mesh%n_elements, 'element', 'elements')//', '// &
-                    plural(model%mesh%n_nodes, 'node', 'nodes'), plural(body_count(last%scene), 'body', 'bodies')//', '// &
-                    to_text(last%scene%n_dofs)//' free displacements'//points_text(last%scene))
-      phases = get_phases()
-      call add_fact(facts, 'processor time', to_text(sum(phases%cpu), 3)//' s', bytes(peak_memory())//' of memory')
-   end subroutine add_facts_of
 
    !> `, 7 contact points in 1 pair`
    pure function points_text(scene) result(text)

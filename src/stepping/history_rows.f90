@@ -16,6 +16,8 @@ contains
       type(results_t), intent(in) :: results         !< of the increment
       integer(ip), intent(in) :: pair                !< place in the list of pairs
       real(wp), intent(in) :: dissipation            !< from the beginning of the history [F L]
+      real(wp) :: force(2), of_s
+      integer(ip) :: j
 
       row%step = results%step
       row%increment = results%increment
@@ -31,31 +33,21 @@ contains
          row%slip = count(c%status == POINT_SLIP, kind=ip)
          if (c%n > 0) row%max_pressure = maxval(c%pressure(:c%n))
          if (c%n > 0) row%mean_slip = dot_product(c%weight(:c%n), c%slip(:c%n))/sum(c%weight(:c%n))
-         call add_resultants(points, c, row)
+         ! Of the tractions on the slave, -p n + sigma_T T.
+         of_s = 0.0_wp
+         do j = 1, c%n
+            associate (n => c%normal(:, j), p => c%pressure(j), w => c%weight(j))
+               force = w*(c%shear(j)*[-n(2), n(1)] - p*n)
+               row%normal = row%normal + w*p
+               row%shear = row%shear + w*c%shear(j)
+               row%moment = row%moment + (c%x(1, j)*force(2) - c%x(2, j)*force(1))
+               of_s = of_s + w*p*c%s(j)
+               if (p > 0.0_wp) row%length = row%length + points%length(j)
+            end associate
+         end do
+         row%centre = ieee_value(1.0_wp, ieee_quiet_nan)
+         if (row%normal > 0.0_wp) row%centre = of_s/row%normal
       end associate
    end function row_of_pair
-
-   !> Of the tractions on the slave, -p n + sigma_T T.
-   pure subroutine add_resultants(points, c, row)
-      type(contact_points_t), intent(in) :: points
-      type(contact_result_t), intent(in) :: c
-      type(history_row_t), intent(inout) :: row
-      real(wp) :: force(2), of_s
-      integer(ip) :: j
-
-      of_s = 0.0_wp
-      do j = 1, c%n
-         associate (n => c%normal(:, j), p => c%pressure(j), w => c%weight(j))
-            force = w*(c%shear(j)*[-n(2), n(1)] - p*n)
-            row%normal = row%normal + w*p
-            row%shear = row%shear + w*c%shear(j)
-            row%moment = row%moment + (c%x(1, j)*force(2) - c%x(2, j)*force(1))
-            of_s = of_s + w*p*c%s(j)
-            if (p > 0.0_wp) row%length = row%length + points%length(j)
-         end associate
-      end do
-      row%centre = ieee_value(1.0_wp, ieee_quiet_nan)
-      if (row%normal > 0.0_wp) row%centre = of_s/row%normal
-   end subroutine add_resultants
 
 end module atrito_history_rows

@@ -31,23 +31,12 @@ contains
       type(plots_t) :: plots
       type(status_t) :: status
       type(string_t) :: names(1)
-
-      call begin_plots(plots, plot_folder(folder))
-      call write_data(plots, study)
-      call write_script(plots, title, study)
-      call end_plots(plots, status)
-      names(1)%s = STUDY_PLOT
-      call draw_written(folder, names, status, drawn)
-   end subroutine write_study_plot
-
-   !> A block an element.
-   subroutine write_data(plots, study)
-      type(plots_t), intent(inout) :: plots
-      type(study_t), intent(in) :: study
       character(len=:), allocatable :: line
       integer(ip) :: j
       integer :: i, k
 
+      call begin_plots(plots, plot_folder(folder))
+      ! A block an element.
       call begin_data(plots, STUDY_PLOT, 'a block an element; columns: side of an element [L], dofs, processor seconds, '// &
                       'estimated error [%], errors of the quantities [%]')
       do i = 1, size(study%elements)
@@ -61,7 +50,11 @@ contains
          end do
          call put(plots, LF)
       end do
-   end subroutine write_data
+      call write_script(plots, title, study)
+      call end_plots(plots, status)
+      names(1)%s = STUDY_PLOT
+      call draw_written(folder, names, status, drawn)
+   end subroutine write_study_plot
 
    !> A row of panels a quantity that has errors, one of the estimate and one of the time.
    subroutine write_script(plots, title, study)

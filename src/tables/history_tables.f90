@@ -107,12 +107,22 @@ contains
       type(history_t), intent(in) :: history        !< with rows, or with what was observed
       real(wp), intent(in) :: length                !< largest coordinate [L]
       type(table_t), intent(out) :: table           !< step, increment, time, and what is known of each
-      integer(ip) :: i
+      integer(ip) :: i, k, place(size(history%rows))
 
       associate (list => history%observed)
          if (size(history%rows) > 0) then
             call build_rows(history%rows, length, table)
-            if (list%n > 0) call add_observed(history, places_of(history%rows, list), table)
+            ! Where the increment of each row is in the list; both go with the time.
+            k = 1
+            do i = 1, size(history%rows, kind=ip)
+               associate (row => history%rows(i))
+                  do while (k < list%n .and. (list%step(k) /= row%step .or. list%increment(k) /= row%increment))
+                     k = k + 1
+                  end do
+               end associate
+               place(i) = k
+            end do
+            if (list%n > 0) call add_observed(history, place, table)
          else
             call begin_table(table, 'history', 'a row an increment', list%n)
             call add_integers(table, 'step', list%step(:list%n))
@@ -122,21 +132,6 @@ contains
          end if
       end associate
    end subroutine build_history
-
-   !> Where the increment of each row is in the list; both go with the time.
-   pure function places_of(rows, list) result(place)
-      type(history_row_t), intent(in) :: rows(:)
-      type(observed_list_t), intent(in) :: list
-      integer(ip) :: place(size(rows)), i, k
-
-      k = 1
-      do i = 1, size(rows, kind=ip)
-         do while (k < list%n .and. (list%step(k) /= rows(i)%step .or. list%increment(k) /= rows(i)%increment))
-            k = k + 1
-         end do
-         place(i) = k
-      end do
-   end function places_of
 
    !> A column each of what is observed.
    subroutine add_observed(history, place, table)

@@ -234,6 +234,7 @@ contains
       type(results_t), intent(in) :: frame
       type(sums_t), intent(inout) :: sums
       integer(ip) :: i
+      real(wp) :: value
 
       if (.not. allocated(frame%reaction)) return
       associate (held => model%steps(frame%step)%prescribed)
@@ -248,28 +249,18 @@ contains
             call add_to(sums%of(held%source(i)), frame%reaction(:, held%node(i)), model%mesh%x(:, held%node(i)))
          end do
       end associate
-      call add_reference_reactions(model, frame, model%steps(frame%step)%rigid_prescribed, sums)
+      ! Reactions at the reference nodes of rigid surfaces; a pre-tension section has none that holds a body.
+      associate (held => model%steps(frame%step)%rigid_prescribed)
+         do i = 1, merge(held%n, 0_ip, allocated(held%source) .and. allocated(frame%rigid))
+            associate (body => findloc(model%rigid_bodies%node, held%node(i), dim=1))
+               if (model%rigid_bodies(body)%is_section) cycle
+               value = frame%rigid(body)%moment
+               if (held%dof(i) <= 2) value = frame%rigid(body)%reaction(held%dof(i))
+            end associate
+            call add(held%source(i), held%dof(i), value, model%mesh%x(:, held%node(i)), sums)
+         end do
+      end associate
    end subroutine add_reactions
-
-   !> Reactions at the reference nodes of rigid surfaces; a pre-tension section has none that holds a body.
-   pure subroutine add_reference_reactions(model, frame, held, sums)
-      type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: frame
-      type(nodal_values_t), intent(in) :: held
-      type(sums_t), intent(inout) :: sums
-      integer(ip) :: i
-      real(wp) :: value
-
-      if (.not. (allocated(held%source) .and. allocated(frame%rigid))) return
-      do i = 1, held%n
-         associate (body => findloc(model%rigid_bodies%node, held%node(i), dim=1))
-            if (model%rigid_bodies(body)%is_section) cycle
-            value = frame%rigid(body)%moment
-            if (held%dof(i) <= 2) value = frame%rigid(body)%reaction(held%dof(i))
-         end associate
-         call add(held%source(i), held%dof(i), value, model%mesh%x(:, held%node(i)), sums)
-      end do
-   end subroutine add_reference_reactions
 
    !> A force along a dof at a place, or a moment.
    pure subroutine add(source, dof, value, x, sums)

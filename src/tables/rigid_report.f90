@@ -136,10 +136,21 @@ contains
       type(scales_t), intent(in) :: scales   !< of the history: what is nothing beside them is 0
       type(grid_t) :: grid
       real(wp) :: numbers(6)
-      integer :: i
+      integer :: i, j
 
       if (.not. allocated(results%rigid)) return
-      call describe_sections(page, results)
+      ! What the sides of sections approach by, and their forces.
+      if (any(results%rigid%is_section)) then
+         call add_blank(page)
+         call add_line(page, '   '//left('pre-tension', 15)//right('taken out [L]', 16)//right('force [F]', 14))
+         do j = 1, size(results%rigid)
+            associate (body => results%rigid(j))
+               if (.not. body%is_section) cycle
+               call add_line(page, '   '//left(body%name, 15)//right(number(body%u(1), DIGITS), 16) &
+                             //right(number(body%force, DIGITS), 14))
+            end associate
+         end do
+      end if
       if (all(results%rigid%is_section)) return
       call add_blank(page)
       call begin_grid(grid, 1, 'rigid body'//CELL//'u1 [L]'//CELL//'u2 [L]'//CELL//'rotation'//CELL//'R1 [F]'//CELL//'R2 [F]'// &
@@ -155,24 +166,6 @@ contains
       end do
       call put_grid(page, grid)
    end subroutine describe_rigid_bodies
-
-   !> What the sides of sections approach by, and their forces.
-   subroutine describe_sections(page, results)
-      type(page_t), intent(inout) :: page
-      type(results_t), intent(in) :: results        !< with rigid bodies
-      integer :: i
-
-      if (.not. any(results%rigid%is_section)) return
-      call add_blank(page)
-      call add_line(page, '   '//left('pre-tension', 15)//right('taken out [L]', 16)//right('force [F]', 14))
-      do i = 1, size(results%rigid)
-         associate (body => results%rigid(i))
-            if (.not. body%is_section) cycle
-            call add_line(page, '   '//left(body%name, 15)//right(number(body%u(1), DIGITS), 16) &
-                          //right(number(body%force, DIGITS), 14))
-         end associate
-      end do
-   end subroutine describe_sections
 
    !> A reaction, where there may be one.
    pure function held(is_prescribed, value) result(text)
