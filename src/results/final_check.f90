@@ -257,7 +257,7 @@ contains
    !>
    !> With p, t, gap g and slip u_T as the results have them, tau = nu S_rho(p) of these p, and s the slip beyond the rest slip:
    !>
-   !>     places      g and u_T are those of the displacements                                     judge_place
+   !>     places      g and u_T are those of the displacements
    !>     normal      p >= 0;  g + delta p = 0 where p > 0;  g >= 0 where p = 0                    judge_normal
    !>     friction    |t| <= tau;  t = tau sign(s) where |s| is beyond what sticking lets;
    !>                 else t is what the law gives for s                                           judge_friction

@@ -57,7 +57,9 @@ contains
                c%shear(j) = -solution%t(k)
                call place_of_point(line, rows, solution, u, k, c%gap(j), c%slip(j))
                c%gap(j) = true_gap(rows, k, c%gap(j))
-               c%status(j) = status_of(line, solution, k, c%pressure(j))
+               c%status(j) = POINT_SLIP
+               if (line%law(k)%kind /= FRICTION_NONE .and. .not. is_full(solution%t(k), solution%tau(k))) c%status(j) = POINT_STICK
+               if (c%pressure(j) <= 0.0_wp) c%status(j) = POINT_OPEN
             end do
             c%s_end = 0.0_wp
             if (c%n > 0) c%s_end = maxval(c%s)
@@ -115,20 +117,6 @@ contains
 
       takes_displacements = solution%has_settled .or. solution%form == CONTACT_SPARSE
    end function takes_displacements
-
-   !> Open without pressure; sticking where there is friction that is below its bound.
-   pure integer(ip) function status_of(line, solution, j, pressure) result(status)
-      type(contact_line_t), intent(in) :: line
-      type(contact_solution_t), intent(in) :: solution
-      integer(ip), intent(in) :: j
-      real(wp), intent(in) :: pressure
-
-      status = POINT_OPEN
-      if (pressure <= 0.0_wp) return
-      status = POINT_SLIP
-      if (line%law(j)%kind == FRICTION_NONE) return
-      if (.not. is_full(solution%t(j), solution%tau(j))) status = POINT_STICK
-   end function status_of
 
    !> Stresses at the Gauss points of the requested elements.
    subroutine recover_stress(requests, fem, results)

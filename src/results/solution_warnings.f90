@@ -176,7 +176,8 @@ contains
       type(contact_line_t), intent(in) :: line
       type(contact_solution_t), intent(in) :: solution
       logical :: is_shared(line%n)
-      integer(ip), allocatable :: nodes(:)
+      integer(ip), allocatable :: nodes(:), once(:)
+      character(len=:), allocatable :: text
       integer(ip) :: j
 
       if (.not. allocated(solution%is_shared)) return
@@ -187,38 +188,18 @@ contains
       end do
       nodes = mesh%node_id(rows%node(rows%first(pack([(j, j=1, line%n)], is_shared))))
       if (size(nodes) == 0) return
-      call add_note('N-SHARED', shared_text(merge('points and joints', 'contact points   ', line%n_bilateral > 0), &
-                                            size(nodes, kind=ip), each_once(nodes)) &
-                    //'; displacements and sums of the forces are, and of the forces the least are given')
+      once = nodes(:0)                               ! two pairs may have their point at one node
+      do j = 1, size(nodes, kind=ip)
+         if (size(once) <= MOST_NAMED .and. .not. any(once == nodes(j))) once = [once, nodes(j)]
+      end do
+      text = trim(merge('points and joints', 'contact points   ', line%n_bilateral > 0))//' share what they ask, so that the '// &
+             'force of '//to_text(size(nodes, kind=ip))//trim(merge(' points', ' point ', size(nodes) > 1))//' is not unique: '// &
+             trim(merge('nodes', 'node ', size(once) > 1))//' '//to_text(once(1))
+      do j = 2, min(size(once, kind=ip), MOST_NAMED)
+         text = text//', '//to_text(once(j))
+      end do
+      if (size(once) > MOST_NAMED) text = text//', ...'
+      call add_note('N-SHARED', text//'; displacements and sums of the forces are, and of the forces the least are given')
    end subroutine note_shared_points
-
-   !> Without those that were there before: two pairs may have their point at one node.
-   pure function each_once(nodes) result(once)
-      integer(ip), intent(in) :: nodes(:)
-      integer(ip), allocatable :: once(:)
-      integer(ip) :: i
-
-      once = nodes(:0)
-      do i = 1, size(nodes, kind=ip)
-         if (.not. any(once == nodes(i))) once = [once, nodes(i)]
-         if (size(once) > MOST_NAMED) return
-      end do
-   end function each_once
-
-   function shared_text(things, n, nodes) result(text)
-      character(len=*), intent(in) :: things
-      integer(ip), intent(in) :: n                   !< points
-      integer(ip), intent(in) :: nodes(:)            !< the first ones and one more
-      character(len=:), allocatable :: text
-      integer(ip) :: i
-
-      text = trim(things)//' share what they ask, so that the force of '//to_text(n) &
-             //trim(merge(' points', ' point ', n > 1))//' is not unique: '// &
-             trim(merge('nodes', 'node ', size(nodes) > 1))//' '//to_text(nodes(1))
-      do i = 2, min(size(nodes, kind=ip), MOST_NAMED)
-         text = text//', '//to_text(nodes(i))
-      end do
-      if (size(nodes) > MOST_NAMED) text = text//', ...'
-   end function shared_text
 
 end module atrito_solution_warnings

@@ -23,18 +23,16 @@ module atrito_load_resultants
 contains
 
    !> Resultants of the three kinds of load at the end of a step.
-   pure subroutine load_resultants(model, concentrated, pressure, body, step)
+   pure subroutine load_resultants(model, concentrated, pressure, body, k)
       type(model_t), intent(in) :: model            !< loads, amplitudes and mesh are read
       type(force_t), intent(out) :: concentrated    !< on nodes
       type(force_t), intent(out) :: pressure        !< on element faces
       type(force_t), intent(out) :: body            !< in elements
-      integer(ip), intent(in), optional :: step     !< default 1
+      integer(ip), intent(in) :: k                  !< the step
       type(element_load_t) :: last
-      integer(ip) :: i, k
+      integer(ip) :: i
       integer :: n
 
-      k = 1
-      if (present(step)) k = step
       call add_nodal_loads(model, k, model%steps(k)%node_loads, concentrated)
       call add_nodal_loads(model, k, model%steps(k)%rigid_loads, concentrated)
       last = model%steps(k)%element_loads
