@@ -37,8 +37,7 @@ contains
       real(wp), intent(inout) :: residual           !< of the equilibrium; >= what outlines are open by, over the largest force
       integer(ip), allocatable :: cut(:)            ! elements
       type(element_energy_t) :: energy              ! of a class
-      integer(ip) :: degree, most, c, n_x
-      real(wp) :: x(MOST_GIVEN)                     ! of an element that is cut
+      integer(ip) :: degree, most, c
       real(wp) :: gain, left, open, most_open, largest, least
       real(wp) :: of_stresses                       ! energy of those of the displacements
       integer :: sweep
@@ -61,14 +60,9 @@ contains
          call begin_class(c)
       end do
       residual = max(residual, most_open/max(largest, tiny(open)))
-      do c = 1, size(cut, kind=ip)                  ! one that is cut has an energy of its own, and so a class
-         associate (n => outline_size(fem%mesh%shape(cut(c)), degree), i => outlines%place(cut(c)))
-            call given_with_loads(fem, loads, u, cut(c), x, n_x)
-            outlines%class_of(i) = classes%n + c
-            call cut_difference(fem, sides, cuts, cut(c), x(:n_x), outlines%a(:n, i), outlines%energy(i), &
-                                outlines%of_cut(:n, :n, c), outlines%slope(:n, i))
-            if (outlines%energy(i) < 0.0_wp) return
-         end associate
+      do c = 1, size(cut, kind=ip)
+         call begin_cut(fem, sides, cuts, loads, u, cut(c), classes%n + c, outlines)
+         if (outlines%energy(outlines%place(cut(c))) < 0.0_wp) return
       end do
       left = sum(outlines%energy)
       least = merge(LITTLE, LITTLE_OF_LARGE, fem%mesh%n_elements <= LARGE)
@@ -172,6 +166,26 @@ contains
       x(n + 1:n + 2) = loads%volume(:, e)
       n = n + 2
    end subroutine given_with_loads
+
+   !> Outline, slope and energy of an element that is cut. It has an energy of its own, and so a class.
+   subroutine begin_cut(fem, sides, cuts, loads, u, e, class, outlines)
+      type(fem_t), intent(in) :: fem
+      type(mesh_sides_t), intent(in) :: sides
+      type(side_cuts_t), intent(in) :: cuts
+      type(proof_loads_t), intent(in) :: loads
+      real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
+      integer(ip), intent(in) :: e, class
+      type(outlines_t), intent(inout) :: outlines   !< with the outline
+      real(wp) :: x(MOST_GIVEN)
+      integer(ip) :: n_x
+
+      associate (n => outline_size(fem%mesh%shape(e), outlines%degree), i => outlines%place(e))
+         call given_with_loads(fem, loads, u, e, x, n_x)
+         outlines%class_of(i) = class
+         call cut_difference(fem, sides, cuts, e, x(:n_x), outlines%a(:n, i), outlines%energy(i), &
+                             outlines%of_cut(:n, :n, class - size(outlines%h, 2)), outlines%slope(:n, i))
+      end associate
+   end subroutine begin_cut
 
    !> The tractions along the sides of an element, counter-clockwise, with what its forces per volume add.
    pure function tractions_around(sides, loads, e, corner) result(traction)

@@ -114,7 +114,7 @@ contains
             call build_rows(history%rows, length, table)
             ! Where the increment of each row is in the list; both go with the time.
             k = 1
-            do i = 1, size(history%rows, kind=ip)
+            do i = 1, merge(size(history%rows, kind=ip), 0_ip, list%n > 0)
                associate (row => history%rows(i))
                   do while (k < list%n .and. (list%step(k) /= row%step .or. list%increment(k) /= row%increment))
                      k = k + 1
