@@ -9,7 +9,7 @@ module atrito_run_report
    use atrito_model, only: model_t
    use atrito_page, only: bytes, number, plural
    use atrito_report, only: report_t
-   use atrito_results, only: results_t, history_t, scene_t, balance_t, last_frame
+   use atrito_results, only: results_t, history_t, balance_t, last_frame
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_summary, only: body_count, pair_count, pair_name, error_text, uniqueness_text
    use atrito_system, only: peak_memory
@@ -35,6 +35,7 @@ contains
       type(library_t), allocatable :: libraries(:)
       integer(ip) :: i
       type(phase_time_t), allocatable :: phases(:)
+      character(len=:), allocatable :: points
 
       report%what = 'run'
       report%deck = model%deck_path
@@ -54,9 +55,15 @@ contains
          call add_fact(report%facts, 'support reactions, sum', force_text(last%balance, last%balance%reactions))
          if (maxval(abs(last%balance%rigid)) > 0.0_wp) call add_fact(report%facts, 'upon rigid surfaces, sum', &
                                                                      force_text(last%balance, last%balance%rigid))
+         points = ''                                ! `, 7 contact points in 1 pair`
+         if (allocated(last%scene%pairs)) then
+            if (size(last%scene%pairs) > 0) points = ', '//plural(sum(last%scene%pairs%n_points), 'contact point', &
+                                                                  'contact points')//' in '// &
+                                                     plural(size(last%scene%pairs, kind=ip), 'pair', 'pairs')
+         end if
          call add_fact(report%facts, 'model', plural(model%mesh%n_elements, 'element', 'elements')//', '// &
                        plural(model%mesh%n_nodes, 'node', 'nodes'), plural(body_count(last%scene), 'body', 'bodies')//', '// &
-                       to_text(last%scene%n_dofs)//' free displacements'//points_text(last%scene))
+                       to_text(last%scene%n_dofs)//' free displacements'//points)
          phases = get_phases()
          call add_fact(report%facts, 'processor time', to_text(sum(phases%cpu), 3)//' s', bytes(peak_memory())//' of memory')
          report%units = model%units
@@ -98,18 +105,6 @@ contains
       call append_string(report%details, plural(count_messages(SEVERITY_WARNING), 'warning', 'warnings')//', '// &
                          plural(count_messages(SEVERITY_NOTE), 'note', 'notes')//'.')
    end subroutine add_verdict
-
-   !> `, 7 contact points in 1 pair`
-   pure function points_text(scene) result(text)
-      type(scene_t), intent(in) :: scene
-      character(len=:), allocatable :: text
-
-      text = ''
-      if (.not. allocated(scene%pairs)) return
-      if (size(scene%pairs) == 0) return
-      text = ', '//plural(sum(scene%pairs%n_points), 'contact point', 'contact points')//' in '// &
-             plural(size(scene%pairs, kind=ip), 'pair', 'pairs')
-   end function points_text
 
    !> Both components; what is rounding beside the others is 0.
    pure function force_text(balance, force) result(text)

@@ -44,12 +44,22 @@ contains
       type(page_t), intent(inout) :: page !< the lines are added to it
       type(model_t), intent(in) :: model  !< mesh, sets, materials and pairs are counted
       character(len=:), allocatable :: text
-      integer(ip) :: rigid
+      integer(ip) :: counts(size(KINDS)), e, kind, rigid
 
       text = unit_names(model%units)
       if (len(text) > 0) call add_entry(page, 'units', text)
       call add_entry(page, 'nodes', to_text(model%mesh%n_nodes))
-      call add_entry(page, 'elements', to_text(model%mesh%n_elements)//element_types(model))
+      counts = 0
+      do e = 1, model%mesh%n_elements
+         kind = kind_of(model%mesh%shape(e), model%mesh%state(e))
+         counts(kind) = counts(kind) + 1
+      end do
+      text = ''                                     ! ` (75 CPE4, 36 CPS9)`
+      do kind = 1, size(KINDS, kind=ip)
+         if (counts(kind) > 0) text = text//', '//to_text(counts(kind))//' '//trim(KINDS(kind)%name)
+      end do
+      if (len(text) > 0) text = ' ('//text(3:)//')'
+      call add_entry(page, 'elements', to_text(model%mesh%n_elements)//text)
       if (model%levels > 0) call add_entry(page, 'refined', plural(model%levels, 'time', 'times')// &
                                            ': each element of the deck is '//to_text(4_ip**model%levels)//' now')
       if (model%n_cut > 0) call add_entry(page, 'refined', 'where the error is: '//to_text(model%n_cut)// &
@@ -65,24 +75,6 @@ contains
       call add_entry(page, 'contact pairs', to_text(size(model%pairs, kind=ip)))
       if (len(joined_text(model)) > 0) call add_entry(page, 'joined by', joined_text(model))
    end subroutine describe_counts
-
-   !> ` (75 CPE4, 36 CPS9)`
-   pure function element_types(model) result(text)
-      type(model_t), intent(in) :: model
-      character(len=:), allocatable :: text
-      integer(ip) :: counts(size(KINDS)), e, kind
-
-      counts = 0
-      do e = 1, model%mesh%n_elements
-         kind = kind_of(model%mesh%shape(e), model%mesh%state(e))
-         counts(kind) = counts(kind) + 1
-      end do
-      text = ''
-      do kind = 1, size(KINDS, kind=ip)
-         if (counts(kind) > 0) text = text//', '//to_text(counts(kind))//' '//trim(KINDS(kind)%name)
-      end do
-      if (len(text) > 0) text = ' ('//text(3:)//')'
-   end function element_types
 
    !> The instances of parts: what their numbers are here, and where they stand.
    subroutine describe_instances(page, model)

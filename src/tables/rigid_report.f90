@@ -58,22 +58,30 @@ contains
       call clear_small(SUMMED*force*body%size, numbers(6:6))
    end function numbers_of
 
-   !> The rigid surfaces that move, and what of them is prescribed at the end of a step.
+   !> The rigid surfaces that move, and what of them is prescribed at the end of a step; pre-tension sections, by what they take out
+   !> or the force that acts then.
    subroutine describe_references(page, model, step)
       type(page_t), intent(inout) :: page !< the lines are added to it
       type(model_t), intent(in) :: model  !< rigid bodies and what is prescribed of them
       integer(ip), intent(in) :: step     !< from 1
       character(len=:), allocatable :: text
+      real(wp) :: moved, force
+      logical :: is_held, is_loaded
       integer(ip) :: i, k
 
       if (.not. allocated(model%rigid_bodies)) return
       do i = 1, size(model%rigid_bodies, kind=ip)
          text = ''
-         if (model%rigid_bodies(i)%is_section) then
-            call describe_section(page, model, step, i)
-            cycle
-         end if
          associate (held => model%steps(step)%rigid_prescribed, node => model%rigid_bodies(i)%node)
+            if (model%rigid_bodies(i)%is_section) then
+               call add_up(model, step, node, held, moved, is_held)
+               call add_up(model, step, node, model%steps(step)%rigid_loads, force, is_loaded)
+               text = 'force '//number(force, DIGITS)//' [F]'
+               if (is_held) text = number(moved, DIGITS)//' [L] taken out'
+               call add_entry(page, 'pre-tension '//model%surfaces(model%rigid_bodies(i)%surface)%name, &
+                              'node '//to_text(model%mesh%node_id(node))//', '//text)
+               cycle
+            end if
             do k = 1, held%n
                if (held%node(k) /= node) cycle
                if (len(text) > 0) text = text//', '
@@ -90,26 +98,6 @@ contains
          end associate
       end do
    end subroutine describe_references
-
-   !> A pre-tension section: its node, and what is prescribed or what force acts at the end of a step.
-   subroutine describe_section(page, model, step, i)
-      type(page_t), intent(inout) :: page
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: step
-      integer(ip), intent(in) :: i                  !< of the rigid bodies
-      character(len=:), allocatable :: text
-      real(wp) :: moved, force
-      logical :: is_held, is_loaded
-
-      associate (body => model%rigid_bodies(i))
-         call add_up(model, step, body%node, model%steps(step)%rigid_prescribed, moved, is_held)
-         call add_up(model, step, body%node, model%steps(step)%rigid_loads, force, is_loaded)
-         text = 'force '//number(force, DIGITS)//' [F]'
-         if (is_held) text = number(moved, DIGITS)//' [L] taken out'
-         call add_entry(page, 'pre-tension '//model%surfaces(body%surface)%name, &
-                        'node '//to_text(model%mesh%node_id(body%node))//', '//text)
-      end associate
-   end subroutine describe_section
 
    !> What a list has at dof 1 of a node at the end of a step.
    subroutine add_up(model, step, node, list, total, is_there)
