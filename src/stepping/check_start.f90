@@ -6,7 +6,7 @@ module atrito_check_start
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t, nodal_values_t
    use atrito_multipliers, only: multiplier_t
-   use atrito_record_checks, only: require, is_finite, is_list, is_plain, is_same_time, may_be
+   use atrito_record_checks, only: require, is_finite, is_list, has_length, is_plain, is_same_time, may_be
    use atrito_restart_state, only: restart_state_t, warm_start_t
    use atrito_results, only: scene_t
    use atrito_scene_data, only: scene_data_t
@@ -65,7 +65,7 @@ contains
 
       associate (n => sum(data%points%n), pairs => size(data%points, kind=ip), bodies => data%fem%bodies%n, memory => state%memory)
          call require(wrong, is_list(memory%rest, n) .and. is_list(memory%slip, n) .and. is_list(memory%shear, n) .and. &
-                      is_list(memory%slides, n), 'rest slips')
+                      has_length(memory%slides, n), 'rest slips')
          call require(wrong, is_list(memory%dissipation, pairs) .and. is_list(memory%moved, pairs), 'dissipation')
          if (allocated(state%released)) call require(wrong, is_list(state%released, 2_ip, data%fem%mesh%n_nodes) .or. &
                                                      is_list(state%released, 2_ip, data%model%mesh%n_nodes), 'released')
@@ -86,16 +86,16 @@ contains
       call require(wrong, any(start%form == [0, CONTACT_DENSE, CONTACT_SPARSE]), 'form')
       if (allocated(wrong) .or. start%form == 0) return
       associate (n => data%line%n, m => size(data%line%point, kind=ip), n_normal => count(data%line%normal > 0, kind=ip))
-         call require(wrong, is_list(start%state%q, m) .and. is_list(start%state%state, m), 'unknowns')
+         call require(wrong, is_list(start%state%q, m) .and. has_length(start%state%state, m), 'unknowns')
          if (allocated(wrong)) return
          call require(wrong, all(start%state%state >= FREE .and. start%state%state <= FROZEN), 'states of unknowns')
          call require(wrong, may_be(start%p, n) .and. may_be(start%tau, n) .and. may_be(start%t, n), 'stresses')
          call require(wrong, may_be(start%state%r, m) .and. may_be(start%state%shift, m) .and. may_be(start%bounds%lower, m) .and. &
                       may_be(start%bounds%upper, m) .and. may_be(start%bounds%d, m), 'bounds')
          call require(wrong, may_be(start%state%a, scene%n_rigid), 'amplitudes')
-         if (allocated(start%is_shared)) call require(wrong, is_list(start%is_shared, m), 'is_shared')
+         if (allocated(start%is_shared)) call require(wrong, has_length(start%is_shared, m), 'is_shared')
          if (allocated(start%tangential_of)) then
-            call require(wrong, is_list(start%tangential_of, n_normal), 'tangential_of')
+            call require(wrong, has_length(start%tangential_of, n_normal), 'tangential_of')
             if (.not. allocated(wrong)) call require(wrong, all(start%tangential_of == tangential_of(data%line, n_normal)), &
                                                      'tangential_of')
          end if
@@ -124,7 +124,7 @@ contains
                       may_be(multipliers%bound_grew, data%line%n), 'multipliers')
          if (allocated(multipliers%were)) call require(wrong, size(multipliers%were) == m, 'multipliers')
          if (allocated(wrong) .or. .not. allocated(multipliers%pair)) return
-         call require(wrong, is_list(multipliers%pair, m), 'pair')
+         call require(wrong, has_length(multipliers%pair, m), 'pair')
          if (allocated(wrong)) return
          call require(wrong, all(multipliers%pair == pairs_of_unknowns(data%line)) .and. &
                       multipliers%n_contact_pairs == last_contact_pair(data%line), 'pair')

@@ -5,14 +5,14 @@ module atrito_record_checks
    use atrito_utf8, only: has_controls
    implicit none (type, external)
    private
-   public :: require, is_finite, is_any_infinite, is_list, may_be, is_text, is_plain, is_same_time
+   public :: require, is_finite, is_any_infinite, is_list, has_length, may_be, is_text, is_plain, is_same_time
 
    !> Round-off of times, which are sums.
    real(wp), parameter :: SAME_TIME = 1.0e-12_wp
 
    !> An allocated array of so many finite numbers.
    interface is_list
-      module procedure is_list_of_reals, is_list_of_columns, is_list_of_integers, is_list_of_logicals
+      module procedure is_list_of_reals, is_list_of_columns
    end interface is_list
 
 contains
@@ -51,8 +51,7 @@ contains
       real(wp), allocatable, intent(in) :: values(:) !< as the file has it
       integer(ip), intent(in) :: n                   !< length that it must have
 
-      is_list = allocated(values)
-      if (is_list) is_list = size(values) == n
+      is_list = has_length(values, n)
       if (is_list) is_list = is_finite(values)
    end function is_list_of_reals
 
@@ -69,21 +68,14 @@ contains
       end do
    end function is_list_of_columns
 
-   pure logical function is_list_of_integers(values, n) result(is_list)
-      integer(ip), allocatable, intent(in) :: values(:) !< as the file has it
-      integer(ip), intent(in) :: n                      !< length that it must have
+   !> Whether an allocated list is there, and has so many elements.
+   pure logical function has_length(list, n)
+      type(*), intent(in), optional :: list(:) !< as the file has it; one that is not allocated is absent
+      integer, intent(in) :: n                 !< length that it must have
 
-      is_list = allocated(values)
-      if (is_list) is_list = size(values) == n
-   end function is_list_of_integers
-
-   pure logical function is_list_of_logicals(values, n) result(is_list)
-      logical, allocatable, intent(in) :: values(:) !< as the file has it
-      integer(ip), intent(in) :: n                  !< length that it must have
-
-      is_list = allocated(values)
-      if (is_list) is_list = size(values) == n
-   end function is_list_of_logicals
+      has_length = present(list)
+      if (has_length) has_length = size(list) == n
+   end function has_length
 
    !> Whether a text is there, and is the one that the deck gives, blanks at its end included.
    pure logical function is_text(text, expected)
