@@ -19,11 +19,11 @@
 !> (memory), the sizes of all motions and forces so far (data%had), which say what is round-off where little acts, and the results
 !> (last). An increment that fails changes none of it, which is why it may simply be tried again over a shorter time.
 module atrito_history
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use atrito_body_cache, only: body_cache_t, release_bodies
    use atrito_contact_scales, only: had_t, widen
    use atrito_contact_solution, only: contact_solution_t
    use atrito_history_lists, only: add_frame, add_iterations, add_row, move_frame, trim_lists
-   use atrito_history_rows, only: row_of_pair
    use atrito_force_sense, only: tell_forces, watch_forces
    use atrito_history_run, only: run_t, is_recorded, is_resumed, resume, record
    use atrito_increment, only: is_solved, solve_increment
@@ -32,11 +32,13 @@ module atrito_history
    use atrito_kinds, only: ip, wp
    use atrito_model, only: all_frequencies, is_due, model_t, requests_t
    use atrito_observer, only: note_observed, observer_t
+   use atrito_points, only: contact_points_t
    use atrito_pressure_warnings, only: warn_of_pressures
    use atrito_recorder, only: recorder_t
    use atrito_reporter, only: reporter_t, report_place, report_progress, PROGRESS_LINE
    use atrito_restart_state, only: warm_start_t
-   use atrito_results, only: ending_t, extreme_t, history_t, results_t
+   use atrito_results, only: ending_t, extreme_t, history_t, results_t, contact_result_t, history_row_t, POINT_OPEN, POINT_STICK, &
+                             POINT_SLIP
    use atrito_rigid_bodies, only: hold_the_same
    use atrito_rigid_results, only: leave_mesh_alone
    use atrito_rigid_steps, only: begin_motions_from, released_forces
@@ -399,5 +401,45 @@ contains
       if (cuts > 0) text = text//'  cut '//to_text(cuts)//trim(merge(' time ', ' times', cuts == 1))
       call report_progress(reporter, text)
    end subroutine tell
+
+   !> The row of one pair.
+   pure type(history_row_t) function row_of_pair(points, results, pair, dissipation) result(row)
+      type(contact_points_t), intent(in) :: points   !< directions of the points of this pair
+      type(results_t), intent(in) :: results         !< of the increment
+      integer(ip), intent(in) :: pair                !< place in the list of pairs
+      real(wp), intent(in) :: dissipation            !< from the beginning of the history [F L]
+      real(wp) :: force(2), of_s
+      integer(ip) :: j
+
+      row%step = results%step
+      row%increment = results%increment
+      row%time = results%time
+      row%pair = pair
+      row%dissipation = dissipation
+      row%elastic_energy = results%strain_energy
+      row%unique_up_to_nu = results%uniqueness%up_to_nu
+      row%index = results%uniqueness%index
+      associate (c => results%contact(pair))
+         row%open = count(c%status == POINT_OPEN, kind=ip)
+         row%stick = count(c%status == POINT_STICK, kind=ip)
+         row%slip = count(c%status == POINT_SLIP, kind=ip)
+         if (c%n > 0) row%max_pressure = maxval(c%pressure(:c%n))
+         if (c%n > 0) row%mean_slip = dot_product(c%weight(:c%n), c%slip(:c%n))/sum(c%weight(:c%n))
+         ! Of the tractions on the slave, -p n + sigma_T T.
+         of_s = 0.0_wp
+         do j = 1, c%n
+            associate (n => c%normal(:, j), p => c%pressure(j), w => c%weight(j))
+               force = w*(c%shear(j)*[-n(2), n(1)] - p*n)
+               row%normal = row%normal + w*p
+               row%shear = row%shear + w*c%shear(j)
+               row%moment = row%moment + (c%x(1, j)*force(2) - c%x(2, j)*force(1))
+               of_s = of_s + w*p*c%s(j)
+               if (p > 0.0_wp) row%length = row%length + points%length(j)
+            end associate
+         end do
+         row%centre = ieee_value(1.0_wp, ieee_quiet_nan)
+         if (row%normal > 0.0_wp) row%centre = of_s/row%normal
+      end associate
+   end function row_of_pair
 
 end module atrito_history

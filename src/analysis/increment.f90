@@ -27,9 +27,7 @@ module atrito_increment
    use atrito_controls, only: controls_t, METHOD_ANDERSON
    use atrito_final_check, only: check_law
    use atrito_increment_bound, only: prepare_bound, prove_bound
-   use atrito_increment_results, only: begin_early, clear_round_off, clear_what_is_left, complete_results, had_by_forces, &
-                                       recover
-   use atrito_increment_uniqueness, only: judge_uniqueness
+   use atrito_increment_results, only: begin_early, clear_round_off, clear_what_is_left, complete_results, had_by_forces, recover
    use atrito_idle_motions, only: settle_idle_motions, stop_slow_motion
    use atrito_kinds, only: ip, wp
    use atrito_ladder, only: RUNGS, is_tried, controls_of_rung, rung_text
@@ -45,6 +43,7 @@ module atrito_increment
    use atrito_status, only: status_t, is_ok
    use atrito_step_loads, only: moment_t
    use atrito_timers, only: start_phase, stop_phase
+   use atrito_uniqueness, only: certify_line, certify_scene, judge_contraction, judge_solution
    use atrito_verdict, only: judge_balance
    implicit none (type, external)
    private
@@ -372,5 +371,33 @@ contains
       call forces_at_end(data, moment_t(results%step_time, results%time), f_end)
       call judge_balance(data, f_end, results%scene%pairs, verdict, again, status)
    end subroutine judge
+
+   !> Judges a solution, converged or not. What does not depend on the loads is found once for the matrices of the line. A solution
+   !> of the sparse form has a certificate, and is judged where the dense one has been tried and has left its matrices.
+   subroutine judge_uniqueness(data, solution, results)
+      type(scene_data_t), intent(inout) :: data        !< certificate is made once for its matrices
+      type(contact_solution_t), intent(in) :: solution !< of the increment
+      type(results_t), intent(inout) :: results        !< get uniqueness and contraction_estimate
+
+      if (.not. data%line%has_friction) return
+      call start_phase('unique')
+      if (.not. allocated(data%flexibility)) then
+         if (.not. allocated(data%certificate)) then
+            allocate (data%certificate)
+            call certify_scene(data%fem, data%rows, data%line, data%starts > 0, data%certificate)
+         end if
+         results%uniqueness = data%certificate%known
+      else
+         if (.not. allocated(data%certificate)) then
+            allocate (data%certificate)
+            call certify_line(data%flexibility, data%line, data%starts > 0, data%certificate)
+         end if
+         results%uniqueness = data%certificate%known
+         call judge_solution(data%flexibility, data%line, solution, data%is_last, data%certificate, results%uniqueness)
+         if (data%is_printed) call judge_contraction(data%flexibility, data%line, solution, data%certificate, &
+                                                     results%contraction_estimate)
+      end if
+      call stop_phase('unique')
+   end subroutine judge_uniqueness
 
 end module atrito_increment

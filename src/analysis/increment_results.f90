@@ -1,7 +1,6 @@
 !> From the solution of an increment to its results: displacements, reactions, contact fields, energies and balances, the final
 !> check of equilibrium, and where it is printed sums by joint, stresses and their error.
 module atrito_increment_results
-   use atrito_body_sums, only: sum_bodies
    use atrito_body_motions, only: add_rigid_motions
    use atrito_assembly, only: fem_t
    use atrito_contact_rows, only: bodies_of_row
@@ -10,8 +9,7 @@ module atrito_increment_results
    use atrito_displacements, only: contact_forces
    use atrito_extremes, only: find_extremes
    use atrito_final_check, only: check_equilibrium, check_balance, equilibrium_t
-   use atrito_force_sums, only: sum_forces
-   use atrito_joint_sums, only: sum_joints
+   use atrito_force_sums, only: clear_balance, leave_out_sections, share_out_rows, sum_bodies, sum_forces, sum_joints
    use atrito_kinds, only: ip, wp
    use atrito_linear_limits, only: find_large
    use atrito_mesh, only: is_revolved
@@ -19,7 +17,6 @@ module atrito_increment_results
    use atrito_recovery, only: recover_contact, recover_stress, estimate_error
    use atrito_results, only: results_t, has_forces
    use atrito_row_entries, only: first_motions
-   use atrito_row_forces, only: share_out_rows, clear_balance, leave_out_sections
    use atrito_scene_data, only: scene_data_t
    use atrito_section_forces, only: sum_cuts
    use atrito_step_loads, only: moment_t

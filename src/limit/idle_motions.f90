@@ -15,9 +15,8 @@ module atrito_idle_motions
    use atrito_friction_law, only: FRICTION_NONE
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, wp
-   use atrito_least_motions, only: measure_motions, take_least
+   use atrito_least_motions, only: measure_motions, take_least, take_rounding_off
    use atrito_load_digits, only: is_within_digits, take_out
-   use atrito_long_ways, only: take_rounding_off
    use atrito_motion_rows, only: motion_rows_t, build_motion_rows, note_digits, join_motions, MOST_PART
    use atrito_own_axes, only: prove_in_own_axes
    use atrito_scene_data, only: scene_data_t
