@@ -264,10 +264,8 @@ contains
       call sum_forces(data%fem%mesh%x, results%u, data%f, results%reaction, contact, results%balance, results%external_work)
       call leave_out_sections(data, results%reaction, contact, results%balance)
       results%balance%is_revolved = is_revolved(data%fem%mesh)
-      results%balance%rows = others(:2)
-      results%balance%rows_moment = others(3)
-      results%balance%rigid = results%balance%rigid - others(:2)
-      results%balance%rigid_moment = results%balance%rigid_moment - others(3)
+      results%balance%rows = others
+      results%balance%rigid = results%balance%rigid - others
       if (data%rows%n_bilateral > 0) call clear_balance(results%balance)
       ! with the contact forces less those of bilateral rows that are supports
       if (data%step%requests%bodies) call sum_bodies(data%fem, results%u, data%f, results%reaction, contact, results%bodies)

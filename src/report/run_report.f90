@@ -51,10 +51,10 @@ contains
                           plural(size(list_increments(history), kind=ip), 'increment', 'increments'), &
                           'below: '//increment_name(last%step, last%increment, last%time))
          end if
-         call add_fact(report%facts, 'loads, sum along 1 and 2', force_text(last%balance, last%balance%applied))
-         call add_fact(report%facts, 'support reactions, sum', force_text(last%balance, last%balance%reactions))
-         if (maxval(abs(last%balance%rigid)) > 0.0_wp) call add_fact(report%facts, 'upon rigid surfaces, sum', &
-                                                                     force_text(last%balance, last%balance%rigid))
+         call add_fact(report%facts, 'loads, sum along 1 and 2', force_text(last%balance, last%balance%applied(:2)))
+         call add_fact(report%facts, 'support reactions, sum', force_text(last%balance, last%balance%reactions(:2)))
+         if (maxval(abs(last%balance%rigid(:2))) > 0.0_wp) call add_fact(report%facts, 'upon rigid surfaces, sum', &
+                                                                     force_text(last%balance, last%balance%rigid(:2)))
          points = ''                                ! `, 7 contact points in 1 pair`
          if (allocated(last%scene%pairs)) then
             if (size(last%scene%pairs) > 0) points = ', '//plural(sum(last%scene%pairs%n_points), 'contact point', &
@@ -114,7 +114,7 @@ contains
       real(wp) :: shown(2), least
       integer :: i
 
-      least = NOTHING*max(maxval(abs(balance%applied)), maxval(abs(balance%reactions)))
+      least = NOTHING*max(maxval(abs(balance%applied(:2))), maxval(abs(balance%reactions(:2))))
       shown = force
       do i = 1, 2
          if (abs_is_below(shown(i), least)) shown(i) = 0.0_wp

@@ -20,11 +20,6 @@ module atrito_force_sums
    private
    public :: sum_forces, share_out_rows, clear_balance, leave_out_sections, sum_bodies, nodal_volumes, sum_joints
 
-   type :: sums_t
-      type(balance_t) :: balance                 !< of these nodes
-      real(wp) :: work = 0.0_wp                  !< over the unit of displacement [F]
-   end type sums_t
-
    !> Normals whose sum is a smaller share of their lengths have no mean: those of a closed ring.
    real(wp), parameter :: NO_DIRECTION = 1.0e-8_wp
    !> Round-off in the distance of points, in parts of it.
@@ -41,8 +36,8 @@ contains
       real(wp), intent(in) :: contact(:, :)      !< B'q (2, n_nodes) [F]
       type(balance_t), intent(out) :: balance    !< applied, reactions and rigid parts are set
       real(wp), intent(out) :: work              !< [F L]
-      type(sums_t) :: sums(chunk_count(size(u, 2, kind=ip)))
-      real(wp) :: unit
+      type(balance_t) :: sums(chunk_count(size(u, 2, kind=ip)))
+      real(wp) :: works(size(sums)), unit        ! over the unit of displacement [F]
       integer(ip) :: chunk, first, last
 
       unit = unit_of(u)
@@ -50,41 +45,41 @@ contains
       do chunk = 1, size(sums, kind=ip)
          call find_chunk(chunk, size(u, 2, kind=ip), first, last)
          call sum_run(x(:, first:last), u(:, first:last), 1/unit, f(:, first:last), reaction(:, first:last), &
-                      contact(:, first:last), sums(chunk))
+                      contact(:, first:last), sums(chunk), works(chunk))
       end do
       !$omp end parallel do
       do chunk = 1, size(sums, kind=ip)
-         associate (part => sums(chunk)%balance)
-            balance%applied = balance%applied + part%applied
-            balance%reactions = balance%reactions + part%reactions
-            balance%applied_moment = balance%applied_moment + part%applied_moment
-            balance%reaction_moment = balance%reaction_moment + part%reaction_moment
-            balance%rigid = balance%rigid + part%rigid
-            balance%rigid_moment = balance%rigid_moment + part%rigid_moment
-         end associate
+         balance%applied = balance%applied + sums(chunk)%applied
+         balance%reactions = balance%reactions + sums(chunk)%reactions
+         balance%rigid = balance%rigid + sums(chunk)%rigid
       end do
-      work = work_of(1_ip, [sum(sums%work)], [unit])
+      work = work_of(1_ip, [sum(works)], [unit])
    end subroutine sum_forces
 
-   !> Of a run of nodes the resultants of loads, reactions and contact, their moments about the origin x1 F2 - x2 F1, and the work
-   !> of loads and reactions on the displacements over the unit.
-   pure subroutine sum_run(x, u, per_unit, f, reaction, contact, sums)
+   !> Of a run of nodes the resultants of loads, reactions and contact, and the work of loads and reactions on the displacements over
+   !> the unit.
+   pure subroutine sum_run(x, u, per_unit, f, reaction, contact, balance, work)
       real(wp), intent(in) :: x(:, :), u(:, :), per_unit, f(:, :), reaction(:, :), contact(:, :)
-      type(sums_t), intent(out) :: sums
+      type(balance_t), intent(out) :: balance
+      real(wp), intent(out) :: work
       integer(ip) :: i
 
+      work = 0.0_wp
       do i = 1, size(x, 2, kind=ip)
-         associate (s => sums%balance)
-            s%applied = s%applied + f(:, i)
-            s%reactions = s%reactions + reaction(:, i)
-            s%applied_moment = s%applied_moment + (x(1, i)*f(2, i) - x(2, i)*f(1, i))
-            s%reaction_moment = s%reaction_moment + (x(1, i)*reaction(2, i) - x(2, i)*reaction(1, i))
-            s%rigid = s%rigid + contact(:, i)
-            s%rigid_moment = s%rigid_moment + (x(1, i)*contact(2, i) - x(2, i)*contact(1, i))
-         end associate
-         sums%work = sums%work + ((f(1, i) + reaction(1, i))*(u(1, i)*per_unit) + (f(2, i) + reaction(2, i))*(u(2, i)*per_unit))
+         balance%applied = balance%applied + about_origin(x(:, i), f(:, i))
+         balance%reactions = balance%reactions + about_origin(x(:, i), reaction(:, i))
+         balance%rigid = balance%rigid + about_origin(x(:, i), contact(:, i))
+         work = work + ((f(1, i) + reaction(1, i))*(u(1, i)*per_unit) + (f(2, i) + reaction(2, i))*(u(2, i)*per_unit))
       end do
    end subroutine sum_run
+
+   !> A force at x, and its moment about the origin x1 F2 - x2 F1.
+   pure function about_origin(x, force) result(both)
+      real(wp), intent(in) :: x(2), force(2)     !< [L], [F]
+      real(wp) :: both(3)
+
+      both = [force, x(1)*force(2) - x(2)*force(1)]
+   end function about_origin
 
    !> The forces of the bilateral rows: those of supports become reactions, those of others stay with the contact.
    subroutine share_out_rows(data, solution, contact, results, others)
@@ -126,13 +121,10 @@ contains
       do i = 1, size(data%model%rigid_bodies, kind=ip)
          if (.not. data%model%rigid_bodies(i)%is_section) cycle
          nodes = carriers_of(data%model, i)
-         associate (f => data%f(:, nodes(1)), r => reaction(:, nodes(1)), x => data%fem%mesh%x(:, nodes(1)))
-            balance%applied = balance%applied - f
-            balance%reactions = balance%reactions - r
-            balance%applied_moment = balance%applied_moment - (x(1)*f(2) - x(2)*f(1))
-            balance%reaction_moment = balance%reaction_moment - (x(1)*r(2) - x(2)*r(1))
-            balance%rigid = balance%rigid - contact(:, nodes(1))
-            balance%rigid_moment = balance%rigid_moment - (x(1)*contact(2, nodes(1)) - x(2)*contact(1, nodes(1)))
+         associate (x => data%fem%mesh%x(:, nodes(1)))
+            balance%applied = balance%applied - about_origin(x, data%f(:, nodes(1)))
+            balance%reactions = balance%reactions - about_origin(x, reaction(:, nodes(1)))
+            balance%rigid = balance%rigid - about_origin(x, contact(:, nodes(1)))
          end associate
       end do
    end subroutine leave_out_sections
@@ -143,9 +135,11 @@ contains
       real(wp), parameter :: ROUND_OFF = 1.0e-13_wp
       real(wp) :: all_forces
 
-      all_forces = sum(abs(balance%applied) + abs(balance%reactions) + abs(balance%rigid) + abs(balance%rows))
-      where (abs(balance%rigid) <= ROUND_OFF*all_forces) balance%rigid = 0.0_wp
-      where (abs(balance%rows) <= ROUND_OFF*all_forces) balance%rows = 0.0_wp
+      associate (rigid => balance%rigid(:2), rows => balance%rows(:2))
+         all_forces = sum(abs(balance%applied(:2)) + abs(balance%reactions(:2)) + abs(rigid) + abs(rows))
+         where (abs(rigid) <= ROUND_OFF*all_forces) rigid = 0.0_wp
+         where (abs(rows) <= ROUND_OFF*all_forces) rows = 0.0_wp
+      end associate
    end subroutine clear_balance
 
    !> All bodies. The contact's forces enter as contact_forces has them: what they take from the loads.

@@ -40,7 +40,7 @@ contains
          has_fixed_surfaces = has_fixed_surfaces .or. (data%points(j)%rigid .and. .not. any(data%model%rigid_bodies%surface &
                                                                                             == data%model%pairs(j)%master))
       end do
-      if (.not. has_fixed_surfaces) results%balance%rigid = 0.0_wp
+      if (.not. has_fixed_surfaces) results%balance%rigid(:2) = 0.0_wp
       call leave_mesh_alone(data, results)
    end subroutine take_rigid_results
 

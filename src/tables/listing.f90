@@ -15,7 +15,7 @@ module atrito_listing
    use atrito_grid, only: grid_t, begin_grid, add_row, put_grid, put_table, CELL
    use atrito_increments, only: has_history, increment_name, ending_text
    use atrito_model, only: model_t
-   use atrito_results, only: results_t, history_t, balance_t, error_bound_t, last_frame, view_frame
+   use atrito_results, only: results_t, history_t, error_bound_t, last_frame, view_frame
    use atrito_page, only: page_t, begin_page, add_line, add_blank, add_rule, add_heading, add_entry, add_paragraph, left, right, &
                           number, bytes
    use atrito_model_report, only: describe_model
@@ -369,7 +369,6 @@ contains
       type(results_t), intent(in) :: results
       type(scales_t), intent(in) :: scales
       type(quantity_t), allocatable :: list(:)
-      type(balance_t) :: b
       type(grid_t) :: grid
       real(wp) :: parts(3, 5), force
       real(wp), parameter :: SUMMED = 1.0e5_wp       !< 1e-9 of all forces is nothing, as on the screen
@@ -377,15 +376,13 @@ contains
                                                                          'from rigid surfaces', 'from springs and equations', 'sum']
       integer :: i
 
-      b = results%balance
-      if (b%is_revolved) then
+      associate (b => results%balance)
+         parts(:, :4) = reshape([b%applied, b%reactions, -b%rigid, -b%rows], [3, 4])
+      end associate
+      if (results%balance%is_revolved) then
          call add_line(page, '   of the full circle: what is radial, and moments, balance in themselves')
-         b = balance_t([0.0_wp, b%applied(2)], [0.0_wp, b%reactions(2)], rigid=[0.0_wp, b%rigid(2)], rows=[0.0_wp, b%rows(2)])
+         parts([1, 3], :4) = 0.0_wp
       end if
-      parts(:, 1) = [b%applied, b%applied_moment]
-      parts(:, 2) = [b%reactions, b%reaction_moment]
-      parts(:, 3) = -[b%rigid, b%rigid_moment]
-      parts(:, 4) = -[b%rows, b%rows_moment]
       parts(:, 5) = sum(parts(:, :4), dim=2)         ! equilibrium makes it zero
       force = SUMMED*sum(abs(parts(:2, :4)))         ! by which round-off is measured
       call begin_grid(grid, 1, 'resultants'//CELL//'F1 [F]'//CELL//'F2 [F]'//CELL//'moment about 0,0 [F L]')

@@ -302,7 +302,7 @@ contains
       scales%length = largest(size(model%mesh%x, kind=lp), model%mesh%x)
       if (allocated(results%u)) scales%displacement = largest(size(results%u, kind=lp), results%u)
       if (allocated(results%reaction)) scales%force = largest(size(results%reaction, kind=lp), results%reaction)
-      scales%force = max(scales%force, maxval(abs(results%balance%applied)))
+      scales%force = max(scales%force, maxval(abs(results%balance%applied(:2))))
       do i = 1, pair_count(results)
          associate (contact => results%contact(i))
             if (contact%n == 0) cycle
