@@ -238,24 +238,27 @@ contains
       logical, intent(in) :: held(:, :)        !< (2, n_nodes)
       type(contact_rows_t), intent(in) :: rows
       character(len=:), allocatable :: text
-      integer(ip) :: b, i, dof, n, first, first_dof
+      integer(ip) :: b, i, dof, dofs, n, first, first_dof
       integer(ip), allocatable :: of_one(:)    ! bilateral rows of one of the bodies alone
+      logical :: is_held
 
       n = 0
       first = 0
       first_dof = 0
       do b = 1, size(bodies, kind=ip)
-         associate (nodes => fem%bodies%list(bodies(b))%nodes)
-            if (fem%bodies%list(bodies(b))%is_rigid) then
-               call count_rigid_supports(fem, bodies(b), n, first, first_dof)
-               cycle
-            end if
-            do i = 1, size(nodes, kind=ip)
-               do dof = 1, 2
-                  if (.not. held(dof, nodes(i))) cycle
-                  n = n + 1
-                  if (first > 0) cycle
-                  first = fem%mesh%node_id(nodes(i))
+         associate (body => fem%bodies%list(bodies(b)))
+            dofs = 2
+            if (body%is_rigid) dofs = size(body%modes, 1, kind=ip)
+            do i = 1, merge(1_ip, size(body%nodes, kind=ip), body%is_rigid)
+               do dof = 1, dofs
+                  if (body%is_rigid) then           ! of u1, u2 and the rotation that in which its modes have nothing
+                     is_held = .not. any(abs(body%modes(dof, :)) > 0.0_wp)
+                  else
+                     is_held = held(dof, body%nodes(i))
+                  end if
+                  if (is_held) n = n + 1
+                  if (first > 0 .or. .not. is_held) cycle
+                  first = fem%mesh%node_id(body%nodes(i))
                   first_dof = dof
                end do
             end do
@@ -278,23 +281,5 @@ contains
          text = text//') do not prevent that'
       end if
    end function support_text
-
-   !> What of u1, u2 and the rotation of a rigid body is prescribed: the rows in which its modes have nothing.
-   pure subroutine count_rigid_supports(fem, b, n, first, first_dof)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: b
-      integer(ip), intent(inout) :: n, first, first_dof !< supports; the user's number of the first node, and its dof
-      integer(ip) :: dof
-
-      associate (body => fem%bodies%list(b))
-         do dof = 1, size(body%modes, 1, kind=ip)
-            if (any(abs(body%modes(dof, :)) > 0.0_wp)) cycle
-            n = n + 1
-            if (first > 0) cycle
-            first = fem%mesh%node_id(body%nodes(1))
-            first_dof = dof
-         end do
-      end associate
-   end subroutine count_rigid_supports
 
 end module atrito_free_motion

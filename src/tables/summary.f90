@@ -319,13 +319,11 @@ contains
       end associate
    end function measure_fields
 
-   !> The scales of one pair's fields: its own pressure and area, and the displacements that meet there.
-   pure function scales_of_pair(scales, contact) result(own)
-      type(scales_t), intent(in) :: scales           !< of all fields
+   !> The scales that one pair's fields have of their own: its pressure and area, and the displacements that meet there.
+   pure function scales_of_pair(contact) result(own)
       type(contact_result_t), intent(in) :: contact
       type(scales_t) :: own
 
-      own = scales
       if (contact%n == 0) return
       own%pressure = maxval(abs(contact%pressure(:contact%n)))
       own%area = sum(contact%weight(:contact%n))
@@ -352,7 +350,7 @@ contains
             allocate (is_bare(size(own)), source=.false.)
          end if
          do pair = 1, size(own, kind=ip)
-            own(pair) = larger(own(pair), scales_of_pair(scales_t(), frame%contact(pair)))
+            own(pair) = larger(own(pair), scales_of_pair(frame%contact(pair)))
             is_bare(pair) = is_bare(pair) .or. frame%contact(pair)%n == 0
          end do
       end do

@@ -19,7 +19,7 @@ module atrito_state_index
    use atrito_kinds, only: ip, wp, HUGE_REAL
    use atrito_line_certificate, only: line_certificate_t, NOT_ASKED
    use atrito_newton, only: jacobian_of_state
-   use atrito_one_solution, only: certify_way, is_regular
+   use atrito_one_solution, only: certify, is_regular
    implicit none (type, external)
    private
    public :: index_of_solution, meet_state
@@ -33,7 +33,7 @@ contains
    !>
    !>     1. points on the edge of their state: no index
    !>     2. the state was met before, or a certificate covers nu: its sign
-   !>     3. one Cholesky factor proves that det M has no zero from 0 to nu: 1 (is_regular, then another alpha by certify_way)
+   !>     3. one Cholesky factor proves that det M has no zero from 0 to nu: 1 (is_regular, then another alpha by certify)
    !>     4. det M itself: slipping forces are eliminated, whose rows are sparse; the rest by LU with its exchanges of rows
    integer(ip) function index_of_solution(problem, line, solution, is_known, certificate) result(index_of)
       type(bound_qp_t), intent(in) :: problem     !< C and G
@@ -57,7 +57,7 @@ contains
          end if
          if (certificate%sign_of == NOT_ASKED .and. .not. allocated(certificate%way)) then
             certificate%way = share               ! elastic stick: an alpha that may serve states to come, too
-            call certify_way(certificate%form, share, up_to_nu, certificate%alpha)
+            call certify(certificate%form, up_to_nu, certificate%alpha, share)
             if (up_to_nu >= nu) certificate%sign_of = 1
          end if
       end associate

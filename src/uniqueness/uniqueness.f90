@@ -19,7 +19,7 @@ module atrito_uniqueness
    use atrito_friction_law, only: FRICTION_NONE
    use atrito_kinds, only: ip, wp
    use atrito_line_certificate, only: line_certificate_t
-   use atrito_one_solution, only: certify_every_load, certify_way, MOST
+   use atrito_one_solution, only: certify, MOST
    use atrito_results, only: uniqueness_t
    use atrito_row_entries, only: build_constraint_rows
    use atrito_sparse_certificate, only: certify_sparse
@@ -52,7 +52,7 @@ contains
          allocate (certificate%form)
          call build_form(problem, line, certificate%form, why_not)
          if (len(why_not) == 0) then
-            call certify_every_load(certificate%form, nu, certificate%alpha)
+            call certify(certificate%form, nu, certificate%alpha)
             known%up_to_nu = rounded_down(nu)
             if (.not. nu > 0.0_wp) why_not = 'contact points depend on each other'
          end if
@@ -151,7 +151,7 @@ contains
          if (all(certificate%way*way > 0.0_wp)) return
       end if
       certificate%way = way
-      call certify_way(certificate%form, way, certificate%way_up_to_nu, certificate%alpha)
+      call certify(certificate%form, certificate%way_up_to_nu, certificate%alpha, way)
       certificate%way_up_to_nu = rounded_down(certificate%way_up_to_nu)
    end subroutine keep_way
 
