@@ -26,7 +26,7 @@ module atrito_history
    use atrito_history_lists, only: add_frame, add_iterations, add_row, move_frame, trim_lists
    use atrito_force_sense, only: tell_forces, watch_forces
    use atrito_history_run, only: run_t, is_recorded, is_resumed, resume, record
-   use atrito_increment, only: is_solved, solve_increment
+   use atrito_increment, only: is_solved, search_solutions, solve_increment
    use atrito_increment_results, only: complete_results
    use atrito_increment_length, only: cut_increment, is_longer_than_least, lengthen, next_time, progress_t
    use atrito_kinds, only: ip, wp
@@ -47,7 +47,6 @@ module atrito_history
    use atrito_scene_forecast, only: forecast_memory
    use atrito_slip_memory, only: begin_memory, put_rest, remember_slips
    use atrito_solution_warnings, only: warn, idle_text
-   use atrito_solution_search, only: search_solutions
    use atrito_solve, only: begin_scene, note_method, solve_options_t, solve_static
    use atrito_status, only: is_ok, reword_status, set_status, status_t, STATUS_NOT_CONVERGED, STATUS_SINGULAR
    use atrito_step_change, only: begin_from, changes_form

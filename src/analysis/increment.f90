@@ -22,7 +22,7 @@ module atrito_increment
    use atrito_body_motions, only: body_text, find_moved_body, how_it_moves
    use atrito_condensed_body, only: check_held
    use atrito_contact_form, only: contact_form_name, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE
-   use atrito_contact_scales, only: usual_growth
+   use atrito_contact_scales, only: usual_growth, had_t, widen
    use atrito_contact_solution, only: contact_solution_t
    use atrito_controls, only: controls_t, METHOD_ANDERSON
    use atrito_final_check, only: check_law
@@ -32,22 +32,24 @@ module atrito_increment
    use atrito_kinds, only: ip, wp
    use atrito_ladder, only: RUNGS, is_tried, controls_of_rung, rung_text
    use atrito_number_range, only: explain_range
+   use atrito_other_solutions, only: find_others
    use atrito_outer_loop, only: FREE_MOTION
    use atrito_picard_loop, only: is_too_much
    use atrito_reporter, only: report_progress
    use atrito_results, only: results_t
    use atrito_rigid_results, only: take_rigid_results
    use atrito_scene_data, only: scene_data_t, assemble, drop_assembled, forces_at_end, put_back_loads
-   use atrito_solve_condensed, only: solve_condensed, release_condensed
+   use atrito_solve_condensed, only: solve_condensed, release_condensed, expand_solution
    use atrito_solve_multiplier, only: solve_multiplier
    use atrito_status, only: status_t, is_ok
    use atrito_step_loads, only: moment_t
+   use atrito_strings, only: to_text
    use atrito_timers, only: start_phase, stop_phase
-   use atrito_uniqueness, only: certify_line, certify_scene, judge_contraction, judge_solution
+   use atrito_uniqueness, only: certify_line, certify_scene, judge_contraction, judge_solution, is_certified
    use atrito_verdict, only: judge_balance
    implicit none (type, external)
    private
-   public :: solve_increment, begin_results, finish_form, is_solved
+   public :: solve_increment, search_solutions, is_solved
 
    !> Entries of C to go through where either form may be taken: with 400 unknown forces 900 linear solves, with 100 15,000.
    real(wp), parameter :: MOST_ENTRIES = 1.5e8_wp
@@ -399,5 +401,59 @@ contains
       end if
       call stop_phase('unique')
    end subroutine judge_uniqueness
+
+   !> Searches from data%starts starts. The numbers of both go into the results. Where the dense form was not tried there is nothing
+   !> to search with, and where one solution is certified there is nothing to search for.
+   subroutine search_solutions(data, store, first, results, others)
+      type(scene_data_t), intent(inout) :: data             !< with C and G
+      type(body_cache_t), intent(inout) :: store            !< with the bodies
+      type(contact_solution_t), intent(in) :: first         !< from which the others are told apart
+      type(results_t), intent(inout) :: results             !< of it
+      type(results_t), allocatable, intent(out) :: others(:) !< each passed its check; without stresses
+      type(contact_solution_t), allocatable :: found(:)
+      type(results_t), allocatable :: list(:)
+      type(had_t) :: had
+      real(wp), allocatable :: u(:, :)
+      type(status_t) :: status
+      integer(ip) :: i, n
+
+      allocate (others(0))
+      if (data%starts == 0) return
+      if (.not. (allocated(data%flexibility) .and. data%line%has_friction)) then
+         if (data%line%has_friction .and. .not. results%uniqueness%up_to_nu > 0.0_wp) then
+            results%uniqueness%why_not = 'no search either, the sparse form has no matrix'
+         end if
+         results%uniqueness%starts = data%starts
+         return
+      end if
+      allocate (found(0))
+      if (.not. is_certified(results%uniqueness)) then
+         call start_phase('search')
+         call find_others(data%flexibility, data%line, data%step%controls, first, data%starts, found)
+         call stop_phase('search')
+      end if
+      allocate (list(size(found)))
+      had = data%had                                        ! what is rounding beside the first is so in all
+      call widen(data%had, first%body_motion, first%body_force)
+      n = 0
+      do i = 1, size(found, kind=ip)
+         associate (other => list(n + 1))
+            call begin_results(results, other)
+            other%uniqueness = results%uniqueness
+            call judge_solution(data%flexibility, data%line, found(i), .false., data%certificate, other%uniqueness)
+            found(i)%form = CONTACT_DENSE
+            call expand_solution(data, data%step%controls, store, other%scene, found(i), u)
+            call finish_form(data, data%step%controls, found(i), u, other, status)
+            if (is_solved(other, status)) n = n + 1
+         end associate
+      end do
+      data%had = had
+      others = list(:n)
+      results%uniqueness%starts = data%starts
+      results%uniqueness%solutions = n + 1
+      others%uniqueness%starts = data%starts
+      others%uniqueness%solutions = n + 1
+      call report_progress(data%reporter, 'search '//to_text(data%starts)//' starts, '//to_text(n)//' other solutions')
+   end subroutine search_solutions
 
 end module atrito_increment
