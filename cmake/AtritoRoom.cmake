@@ -58,3 +58,14 @@ function(atrito_add_room room)
    endforeach()
    target_link_libraries(atrito_${room} PUBLIC ${ARG_LIBRARIES})
 endfunction()
+
+# Texts that become modules: their lines in Fortran.
+function(atrito_text_lines name)
+   cmake_parse_arguments(ARG "--whole" "" "" ${ARGN})
+   set(files ${ARG_UNPARSED_ARGUMENTS})
+   list(TRANSFORM files PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+   set(whole $<$<BOOL:${ARG_--whole}>:--whole>)
+   add_custom_command(OUTPUT atrito_${name}.f90
+      COMMAND sh ${PROJECT_SOURCE_DIR}/tools/text-lines ${whole} ${name} ${files} > atrito_${name}.f90
+      DEPENDS ${files} ${PROJECT_SOURCE_DIR}/tools/text-lines VERBATIM COMMAND_EXPAND_LISTS)
+endfunction()

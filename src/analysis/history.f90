@@ -19,24 +19,26 @@
 !> (memory), the sizes of all motions and forces so far (data%had), which say what is round-off where little acts, and the results
 !> (last). An increment that fails changes none of it, which is why it may simply be tried again over a shorter time.
 module atrito_history
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use atrito_body_cache, only: body_cache_t, release_bodies
    use atrito_contact_scales, only: had_t, widen
    use atrito_contact_solution, only: contact_solution_t
    use atrito_history_lists, only: add_frame, add_iterations, add_row, move_frame, trim_lists
-   use atrito_history_rows, only: row_of_pair
    use atrito_force_sense, only: tell_forces, watch_forces
    use atrito_history_run, only: run_t, is_recorded, is_resumed, resume, record
-   use atrito_increment, only: is_solved, solve_increment
+   use atrito_increment, only: is_solved, search_solutions, solve_increment
    use atrito_increment_results, only: complete_results
    use atrito_increment_length, only: cut_increment, is_longer_than_least, lengthen, next_time, progress_t
    use atrito_kinds, only: ip, wp
    use atrito_model, only: all_frequencies, is_due, model_t, requests_t
    use atrito_observer, only: note_observed, observer_t
+   use atrito_points, only: contact_points_t
    use atrito_pressure_warnings, only: warn_of_pressures
    use atrito_recorder, only: recorder_t
    use atrito_reporter, only: reporter_t, report_place, report_progress, PROGRESS_LINE
    use atrito_restart_state, only: warm_start_t
-   use atrito_results, only: ending_t, extreme_t, history_t, results_t
+   use atrito_results, only: ending_t, extreme_t, history_t, results_t, contact_result_t, history_row_t, POINT_OPEN, POINT_STICK, &
+                             POINT_SLIP
    use atrito_rigid_bodies, only: hold_the_same
    use atrito_rigid_results, only: leave_mesh_alone
    use atrito_rigid_steps, only: begin_motions_from, released_forces
@@ -45,7 +47,6 @@ module atrito_history
    use atrito_scene_forecast, only: forecast_memory
    use atrito_slip_memory, only: begin_memory, put_rest, remember_slips
    use atrito_solution_warnings, only: warn, idle_text
-   use atrito_solution_search, only: search_solutions
    use atrito_solve, only: begin_scene, note_method, solve_options_t, solve_static
    use atrito_status, only: is_ok, reword_status, set_status, status_t, STATUS_NOT_CONVERGED, STATUS_SINGULAR
    use atrito_step_change, only: begin_from, changes_form
@@ -72,13 +73,18 @@ contains
       type(run_t), target :: run
       type(progress_t) :: now
       integer(ip) :: k, first
+      logical :: has_one_increment
 
       allocate (history%rows(0), history%iterations(0))
       if (present(recorder)) run%recorder => recorder
       if (present(observer)) then
          if (observer%is_there) run%observer => observer
       end if
-      if (has_one_increment(model) .and. .not. is_recorded(run)) then
+      ! Whether there is one step that is one increment, which is not cut.
+      associate (control => model%steps(1)%increments)
+         has_one_increment = size(model%steps) == 1 .and. control%initial >= control%period .and. control%least >= control%period
+      end associate
+      if (has_one_increment .and. .not. is_recorded(run)) then
          call solve_only_increment(model, options, reporter, history, status, store, start)
          if (associated(run%observer) .and. is_ok(status)) call run%observer%observe(history%frames(1), &
                                                                                      history%rows)
@@ -110,15 +116,6 @@ contains
       call drop_assembled(run%data)
       call release_bodies(store)
    end subroutine solve_history
-
-   !> Whether there is one step that is one increment, which is not cut.
-   pure logical function has_one_increment(model)
-      type(model_t), intent(in) :: model
-
-      associate (control => model%steps(1)%increments)
-         has_one_increment = size(model%steps) == 1 .and. control%initial >= control%period .and. control%least >= control%period
-      end associate
-   end function has_one_increment
 
    subroutine solve_only_increment(model, options, reporter, history, status, store, start)
       type(model_t), intent(in), target :: model
@@ -206,6 +203,7 @@ contains
       type(contact_solution_t) :: solution
       real(wp) :: to
       logical :: may_be_cut
+      character(len=:), allocatable :: text
 
       associate (control => model%steps(k)%increments)
          if (now%increment == 0) now%length = control%initial
@@ -217,7 +215,11 @@ contains
                call end_early(k, now, run, history, status)
                return
             end if
-            call report_place(run%reporter, place_text(model, k, run%began, now), is_phase=now%increment == 1)
+            ! `step 2 of 3`, and behind its first increment `step 2 of 3, increment 5, 45 %` of the whole history.
+            text = 'step '//to_text(k)//' of '//to_text(size(model%steps, kind=ip))
+            if (now%increment > 1) text = text//', increment '//to_text(now%increment)//', '// &
+                                          to_text(int(100*(run%began + now%time)/sum(model%steps%increments%period), ip))//' %'
+            call report_place(run%reporter, text, is_phase=now%increment == 1)
             run%data%may_cut = is_longer_than_least(control, min(now%length, to - now%time))
             call try_increment(k, now%increment, to, store, run, results, solution, status)
             history%factorisations = history%factorisations + results%factorisations
@@ -264,7 +266,8 @@ contains
       results%step_time = to
       results%time = run%began + to
       results%ends_step = to >= run%data%step%increments%period
-      run%data%is_printed = is_wanted(run%data%step%requests, increment, results%ends_step)
+      ! Whether anything is printed of an increment.
+      run%data%is_printed = any(is_due(all_frequencies(run%data%step%requests%every), increment, results%ends_step))
       run%data%is_last = results%ends_step .and. k == size(run%data%model%steps)
       if (run%reporter%form == PROGRESS_LINE) run%data%reporter = run%reporter
       nullify (run%data%before)
@@ -276,15 +279,6 @@ contains
          call search_solutions(run%data, store, solution, results, others)
       end if
    end subroutine try_increment
-
-   !> Whether anything is printed of an increment.
-   pure logical function is_wanted(requests, increment, ends_step)
-      type(requests_t), intent(in) :: requests
-      integer(ip), intent(in) :: increment
-      logical, intent(in) :: ends_step
-
-      is_wanted = any(is_due(all_frequencies(requests%every), increment, ends_step))
-   end function is_wanted
 
    !> A converged increment: rest slips, rows, iterations, and the frame where it is printed.
    subroutine keep_increment(model, results, solution, run, history)
@@ -394,19 +388,6 @@ contains
       if (one%value > largest%value) largest = one
    end subroutine take_larger
 
-   !> `step 2 of 3`, and behind its first increment `step 2 of 3, increment 5, 45 %` of the whole history.
-   pure function place_text(model, k, began, now) result(text)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: k                   !< the step
-      real(wp), intent(in) :: began                  !< its time
-      type(progress_t), intent(in) :: now
-      character(len=:), allocatable :: text
-
-      text = 'step '//to_text(k)//' of '//to_text(size(model%steps, kind=ip))
-      if (now%increment > 1) text = text//', increment '//to_text(now%increment)//', '// &
-                                    to_text(int(100*(began + now%time)/sum(model%steps%increments%period), ip))//' %'
-   end function place_text
-
    !> One line an increment.
    subroutine tell(reporter, results, cuts)
       type(reporter_t), intent(in) :: reporter
@@ -419,5 +400,45 @@ contains
       if (cuts > 0) text = text//'  cut '//to_text(cuts)//trim(merge(' time ', ' times', cuts == 1))
       call report_progress(reporter, text)
    end subroutine tell
+
+   !> The row of one pair.
+   pure type(history_row_t) function row_of_pair(points, results, pair, dissipation) result(row)
+      type(contact_points_t), intent(in) :: points   !< directions of the points of this pair
+      type(results_t), intent(in) :: results         !< of the increment
+      integer(ip), intent(in) :: pair                !< place in the list of pairs
+      real(wp), intent(in) :: dissipation            !< from the beginning of the history [F L]
+      real(wp) :: force(2), of_s
+      integer(ip) :: j
+
+      row%step = results%step
+      row%increment = results%increment
+      row%time = results%time
+      row%pair = pair
+      row%dissipation = dissipation
+      row%elastic_energy = results%strain_energy
+      row%unique_up_to_nu = results%uniqueness%up_to_nu
+      row%index = results%uniqueness%index
+      associate (c => results%contact(pair))
+         row%open = count(c%status == POINT_OPEN, kind=ip)
+         row%stick = count(c%status == POINT_STICK, kind=ip)
+         row%slip = count(c%status == POINT_SLIP, kind=ip)
+         if (c%n > 0) row%max_pressure = maxval(c%pressure(:c%n))
+         if (c%n > 0) row%mean_slip = dot_product(c%weight(:c%n), c%slip(:c%n))/sum(c%weight(:c%n))
+         ! Of the tractions on the slave, -p n + sigma_T T.
+         of_s = 0.0_wp
+         do j = 1, c%n
+            associate (n => c%normal(:, j), p => c%pressure(j), w => c%weight(j))
+               force = w*(c%shear(j)*[-n(2), n(1)] - p*n)
+               row%normal = row%normal + w*p
+               row%shear = row%shear + w*c%shear(j)
+               row%moment = row%moment + (c%x(1, j)*force(2) - c%x(2, j)*force(1))
+               of_s = of_s + w*p*c%s(j)
+               if (p > 0.0_wp) row%length = row%length + points%length(j)
+            end associate
+         end do
+         row%centre = ieee_value(1.0_wp, ieee_quiet_nan)
+         if (row%normal > 0.0_wp) row%centre = of_s/row%normal
+      end associate
+   end function row_of_pair
 
 end module atrito_history

@@ -5,7 +5,6 @@
 module atrito_history_run
    use atrito_body_cache, only: body_cache_t
    use atrito_check_found, only: check_found
-   use atrito_check_start, only: check_place, check_start
    use atrito_contact_scales, only: widen
    use atrito_history_lists, only: trim_lists
    use atrito_force_sense, only: force_sense_t, pair_force
@@ -13,6 +12,7 @@ module atrito_history_run
    use atrito_kinds, only: ip, wp
    use atrito_model, only: is_due, model_t, step_t
    use atrito_observer, only: observer_t
+   use atrito_record_checks, only: check_place, check_start
    use atrito_recorder, only: recorder_t
    use atrito_reporter, only: reporter_t
    use atrito_restart_state, only: restart_state_t, slip_memory_t

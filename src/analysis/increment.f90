@@ -9,7 +9,7 @@
 !>         finish_form              results, then the final check; a check that fails is judged as no solution is
 !>       solve_without_near         not solved, and elements that nearly equal were taken as equal: again, each by itself
 !>       climb                      not solved: the rungs of the ladder, one after the other, until one finds a solution
-!>       let_out                    not solved, and a motion is idle: out of a thin wedge that friction might hold
+!>       attempt                    not solved, and a motion is idle: it lets out of a thin wedge that friction might hold
 !>
 !> A solution counts where the outer loop has converged and the final check, which knows nothing of how it was found, holds
 !> (is_solved). All attempts begin from the same results (begin_results) and loads (put_back_loads), so an attempt that fails leaves
@@ -22,33 +22,34 @@ module atrito_increment
    use atrito_body_motions, only: body_text, find_moved_body, how_it_moves
    use atrito_condensed_body, only: check_held
    use atrito_contact_form, only: contact_form_name, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE
-   use atrito_contact_scales, only: usual_growth
+   use atrito_contact_scales, only: usual_growth, had_t, widen
    use atrito_contact_solution, only: contact_solution_t
    use atrito_controls, only: controls_t, METHOD_ANDERSON
    use atrito_final_check, only: check_law
    use atrito_increment_bound, only: prepare_bound, prove_bound
-   use atrito_increment_results, only: begin_early, clear_round_off, clear_what_is_left, complete_results, had_by_forces, &
-                                       recover
-   use atrito_increment_uniqueness, only: judge_uniqueness
+   use atrito_increment_results, only: begin_early, clear_round_off, clear_what_is_left, complete_results, had_by_forces, recover
    use atrito_idle_motions, only: settle_idle_motions, stop_slow_motion
    use atrito_kinds, only: ip, wp
    use atrito_ladder, only: RUNGS, is_tried, controls_of_rung, rung_text
    use atrito_number_range, only: explain_range
+   use atrito_other_solutions, only: find_others
    use atrito_outer_loop, only: FREE_MOTION
    use atrito_picard_loop, only: is_too_much
    use atrito_reporter, only: report_progress
    use atrito_results, only: results_t
    use atrito_rigid_results, only: take_rigid_results
    use atrito_scene_data, only: scene_data_t, assemble, drop_assembled, forces_at_end, put_back_loads
-   use atrito_solve_condensed, only: solve_condensed, release_condensed
+   use atrito_solve_condensed, only: solve_condensed, release_condensed, expand_solution
    use atrito_solve_multiplier, only: solve_multiplier
    use atrito_status, only: status_t, is_ok
    use atrito_step_loads, only: moment_t
+   use atrito_strings, only: to_text
    use atrito_timers, only: start_phase, stop_phase
+   use atrito_uniqueness, only: certify_line, certify_scene, judge_contraction, judge_solution, is_certified
    use atrito_verdict, only: judge_balance
    implicit none (type, external)
    private
-   public :: solve_increment, begin_results, finish_form, is_solved
+   public :: solve_increment, search_solutions, is_solved
 
    !> Entries of C to go through where either form may be taken: with 400 unknown forces 900 linear solves, with 100 15,000.
    real(wp), parameter :: MOST_ENTRIES = 1.5e8_wp
@@ -67,6 +68,8 @@ contains
       type(status_t), intent(out) :: status                 !< STATUS_OK, STATUS_SINGULAR, STATUS_DECK or STATUS_INTERNAL
       type(controls_t) :: controls
       integer :: idle_form                                  ! in which a motion was idle, but no solution
+      type(contact_solution_t) :: tried
+      logical :: found
 
       controls = data%step%controls
       if (asked_form == CONTACT_AUTO) controls%most_entries = MOST_ENTRIES
@@ -81,7 +84,13 @@ contains
       if (is_ok(status) .and. .not. is_solved(results, status)) then
          call climb(data, asked_form, controls, store, results, solution, idle_form)
       end if
-      if (is_ok(status) .and. .not. is_solved(results, status)) call let_out(data, idle_form, controls, store, results, solution)
+      if (is_ok(status) .and. .not. is_solved(results, status) .and. data%line%has_friction .and. idle_form /= CONTACT_AUTO) then
+         ! A thin wedge lets out what nothing presses into it. With friction it may hold it as well, which the rungs would have
+         ! found: now the least motion goes as far as it must.
+         data%lets_out = .true.
+         call attempt(data, idle_form, controls, store, results, solution, tried, found)
+         data%lets_out = .false.
+      end if
       if (associated(data%viewer)) call data%viewer%view(data, results, solution)
       if (.not. data%keeps) call release_condensed(data, store)
       if (.not. is_solved(results, status)) call explain_range(data, results, status)
@@ -274,24 +283,6 @@ contains
       end do
    end subroutine climb
 
-   !> A thin wedge lets out what nothing presses into it. With friction it may hold it as well, which the rungs would have found:
-   !> now the least motion goes as far as it must.
-   subroutine let_out(data, form, controls, store, results, solution)
-      type(scene_data_t), intent(inout) :: data
-      integer, intent(in) :: form                           !< in which a motion was idle; CONTACT_AUTO: in none
-      type(controls_t), intent(in) :: controls
-      type(body_cache_t), intent(inout) :: store
-      type(results_t), intent(inout) :: results
-      type(contact_solution_t), intent(inout) :: solution
-      type(contact_solution_t) :: tried
-      logical :: found
-
-      if (.not. data%line%has_friction .or. form == CONTACT_AUTO) return
-      data%lets_out = .true.
-      call attempt(data, form, controls, store, results, solution, tried, found)
-      data%lets_out = .false.
-   end subroutine let_out
-
    !> Solves once more. What is found counts when it converges and its law holds; else results and solution are as they were.
    subroutine attempt(data, form, controls, store, results, solution, tried, found)
       type(scene_data_t), intent(inout) :: data
@@ -382,5 +373,87 @@ contains
       call forces_at_end(data, moment_t(results%step_time, results%time), f_end)
       call judge_balance(data, f_end, results%scene%pairs, verdict, again, status)
    end subroutine judge
+
+   !> Judges a solution, converged or not. What does not depend on the loads is found once for the matrices of the line. A solution
+   !> of the sparse form has a certificate, and is judged where the dense one has been tried and has left its matrices.
+   subroutine judge_uniqueness(data, solution, results)
+      type(scene_data_t), intent(inout) :: data        !< certificate is made once for its matrices
+      type(contact_solution_t), intent(in) :: solution !< of the increment
+      type(results_t), intent(inout) :: results        !< get uniqueness and contraction_estimate
+
+      if (.not. data%line%has_friction) return
+      call start_phase('unique')
+      if (.not. allocated(data%flexibility)) then
+         if (.not. allocated(data%certificate)) then
+            allocate (data%certificate)
+            call certify_scene(data%fem, data%rows, data%line, data%starts > 0, data%certificate)
+         end if
+         results%uniqueness = data%certificate%known
+      else
+         if (.not. allocated(data%certificate)) then
+            allocate (data%certificate)
+            call certify_line(data%flexibility, data%line, data%starts > 0, data%certificate)
+         end if
+         results%uniqueness = data%certificate%known
+         call judge_solution(data%flexibility, data%line, solution, data%is_last, data%certificate, results%uniqueness)
+         if (data%is_printed) call judge_contraction(data%flexibility, data%line, solution, data%certificate, &
+                                                     results%contraction_estimate)
+      end if
+      call stop_phase('unique')
+   end subroutine judge_uniqueness
+
+   !> Searches from data%starts starts. The numbers of both go into the results. Where the dense form was not tried there is nothing
+   !> to search with, and where one solution is certified there is nothing to search for.
+   subroutine search_solutions(data, store, first, results, others)
+      type(scene_data_t), intent(inout) :: data             !< with C and G
+      type(body_cache_t), intent(inout) :: store            !< with the bodies
+      type(contact_solution_t), intent(in) :: first         !< from which the others are told apart
+      type(results_t), intent(inout) :: results             !< of it
+      type(results_t), allocatable, intent(out) :: others(:) !< each passed its check; without stresses
+      type(contact_solution_t), allocatable :: found(:)
+      type(results_t), allocatable :: list(:)
+      type(had_t) :: had
+      real(wp), allocatable :: u(:, :)
+      type(status_t) :: status
+      integer(ip) :: i, n
+
+      allocate (others(0))
+      if (data%starts == 0) return
+      if (.not. (allocated(data%flexibility) .and. data%line%has_friction)) then
+         if (data%line%has_friction .and. .not. results%uniqueness%up_to_nu > 0.0_wp) then
+            results%uniqueness%why_not = 'no search either, the sparse form has no matrix'
+         end if
+         results%uniqueness%starts = data%starts
+         return
+      end if
+      allocate (found(0))
+      if (.not. is_certified(results%uniqueness)) then
+         call start_phase('search')
+         call find_others(data%flexibility, data%line, data%step%controls, first, data%starts, found)
+         call stop_phase('search')
+      end if
+      allocate (list(size(found)))
+      had = data%had                                        ! what is rounding beside the first is so in all
+      call widen(data%had, first%body_motion, first%body_force)
+      n = 0
+      do i = 1, size(found, kind=ip)
+         associate (other => list(n + 1))
+            call begin_results(results, other)
+            other%uniqueness = results%uniqueness
+            call judge_solution(data%flexibility, data%line, found(i), .false., data%certificate, other%uniqueness)
+            found(i)%form = CONTACT_DENSE
+            call expand_solution(data, data%step%controls, store, other%scene, found(i), u)
+            call finish_form(data, data%step%controls, found(i), u, other, status)
+            if (is_solved(other, status)) n = n + 1
+         end associate
+      end do
+      data%had = had
+      others = list(:n)
+      results%uniqueness%starts = data%starts
+      results%uniqueness%solutions = n + 1
+      others%uniqueness%starts = data%starts
+      others%uniqueness%solutions = n + 1
+      call report_progress(data%reporter, 'search '//to_text(data%starts)//' starts, '//to_text(n)//' other solutions')
+   end subroutine search_solutions
 
 end module atrito_increment

@@ -1,7 +1,6 @@
 !> From the solution of an increment to its results: displacements, reactions, contact fields, energies and balances, the final
 !> check of equilibrium, and where it is printed sums by joint, stresses and their error.
 module atrito_increment_results
-   use atrito_body_sums, only: sum_bodies
    use atrito_body_motions, only: add_rigid_motions
    use atrito_assembly, only: fem_t
    use atrito_contact_rows, only: bodies_of_row
@@ -10,8 +9,7 @@ module atrito_increment_results
    use atrito_displacements, only: contact_forces
    use atrito_extremes, only: find_extremes
    use atrito_final_check, only: check_equilibrium, check_balance, equilibrium_t
-   use atrito_force_sums, only: sum_forces
-   use atrito_joint_sums, only: sum_joints
+   use atrito_force_sums, only: clear_balance, leave_out_sections, share_out_rows, sum_bodies, sum_forces, sum_joints
    use atrito_kinds, only: ip, wp
    use atrito_linear_limits, only: find_large
    use atrito_mesh, only: is_revolved
@@ -20,7 +18,6 @@ module atrito_increment_results
    use atrito_recovery, only: recover_contact, recover_stress, estimate_error
    use atrito_results, only: results_t, has_forces
    use atrito_row_entries, only: first_motions
-   use atrito_row_forces, only: share_out_rows, clear_balance, leave_out_sections
    use atrito_scene_data, only: scene_data_t
    use atrito_section_forces, only: sum_cuts
    use atrito_step_loads, only: moment_t
@@ -188,21 +185,17 @@ contains
       else
          call estimate_error(data%fem, results, strain_bound, data%wants_element_errors)
       end if
-      if (.not. (has_forces(results) .or. allocated(data%thermal))) call clear_stresses(results)
+      if (.not. (has_forces(results) .or. allocated(data%thermal))) then
+         ! Without forces stresses are round-off of displacements.
+         if (allocated(results%stress)) results%stress = 0.0_wp
+         if (allocated(results%nodal_stress)) results%nodal_stress = 0.0_wp
+         if (allocated(results%element_error)) results%element_error = 0.0_wp
+         results%error_estimate = 0.0_wp
+      end if
       call find_large(data%model, data%fem, strain_bound, results)
       call find_extremes(data%model%mesh, data%fem%bodies%of_node, data%points, results)
       call stop_phase('estimate')
    end subroutine complete_results
-
-   !> Without forces stresses are round-off of displacements.
-   pure subroutine clear_stresses(results)
-      type(results_t), intent(inout) :: results
-
-      if (allocated(results%stress)) results%stress = 0.0_wp
-      if (allocated(results%nodal_stress)) results%nodal_stress = 0.0_wp
-      if (allocated(results%element_error)) results%element_error = 0.0_wp
-      results%error_estimate = 0.0_wp
-   end subroutine clear_stresses
 
    !> Where there are several processes the others begin with the fields, while this one checks the equilibrium.
    subroutine begin_early(data, solution, u)
@@ -231,12 +224,21 @@ contains
       real(wp), allocatable :: contact(:, :)
       type(equilibrium_t) :: equilibrium
       real(wp) :: imbalance, others(3)
+      integer(ip) :: first(data%fem%bodies%n + 1), b
+      type(contact_sizes_t) :: sizes
 
       contact = contact_forces(data%fem, data%rows, data%line, solution)
       call move_alloc(u, results%u)
       allocate (results%reaction, mold=results%u)
+      ! The forces at the contact points and their pairs, and the rigid motions of the bodies.
+      sizes%force = data%line%weight*hypot(solution%p, solution%t)
+      sizes%pair = data%line%pair
+      sizes%rows = data%rows
+      sizes%had = data%had
+      first = first_motions(data%fem%bodies)
+      sizes%motion = [(sum(abs(solution%state%a(first(b):first(b + 1) - 1))), b=1, data%fem%bodies%n)]
       call check_equilibrium(data%fem, results%u, data%f, contact, data%held, results%reaction, equilibrium, &
-                             sizes_at_points(data, solution), data%thermal)
+                             sizes, data%thermal)
       imbalance = check_balance(data%fem, data%f, contact, data%rows, data%had)
       results%strain_energy = elastic_energy(data%fem, results%u, equilibrium%energy)
       if (allocated(data%step%requests%cuts)) then          ! rigid motions would cost digits
@@ -263,10 +265,8 @@ contains
       call sum_forces(data%fem%mesh%x, results%u, data%f, results%reaction, contact, results%balance, results%external_work)
       call leave_out_sections(data, results%reaction, contact, results%balance)
       results%balance%is_revolved = is_revolved(data%fem%mesh)
-      results%balance%rows = others(:2)
-      results%balance%rows_moment = others(3)
-      results%balance%rigid = results%balance%rigid - others(:2)
-      results%balance%rigid_moment = results%balance%rigid_moment - others(3)
+      results%balance%rows = others
+      results%balance%rigid = results%balance%rigid - others
       if (data%rows%n_bilateral > 0) call clear_balance(results%balance)
       ! with the contact forces less those of bilateral rows that are supports
       if (data%step%requests%bodies) call sum_bodies(data%fem, results%u, data%f, results%reaction, contact, results%bodies)
@@ -296,20 +296,5 @@ contains
          end associate
       end do
    end subroutine measure_sizes
-
-   !> The forces at the contact points and their pairs, and the rigid motions of the bodies.
-   pure function sizes_at_points(data, solution) result(sizes)
-      type(scene_data_t), intent(in) :: data
-      type(contact_solution_t), intent(in) :: solution
-      type(contact_sizes_t) :: sizes
-      integer(ip) :: first(data%fem%bodies%n + 1), b
-
-      sizes%force = data%line%weight*hypot(solution%p, solution%t)
-      sizes%pair = data%line%pair
-      sizes%rows = data%rows
-      sizes%had = data%had
-      first = first_motions(data%fem%bodies)
-      sizes%motion = [(sum(abs(solution%state%a(first(b):first(b + 1) - 1))), b=1, data%fem%bodies%n)]
-   end function sizes_at_points
 
 end module atrito_increment_results

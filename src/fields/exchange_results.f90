@@ -321,15 +321,15 @@ contains
       type(archive_t), intent(inout) :: archive
       type(balance_t), intent(inout) :: balance
 
-      call exchange_vector(archive, 'applied', balance%applied)
-      call exchange_vector(archive, 'reactions', balance%reactions)
-      call exchange(archive, 'applied_moment', balance%applied_moment)
-      call exchange(archive, 'reaction_moment', balance%reaction_moment)
-      call exchange_vector(archive, 'rigid', balance%rigid)
-      call exchange(archive, 'rigid_moment', balance%rigid_moment)
+      call exchange_vector(archive, 'applied', balance%applied(:2))
+      call exchange_vector(archive, 'reactions', balance%reactions(:2))
+      call exchange(archive, 'applied_moment', balance%applied(3))
+      call exchange(archive, 'reaction_moment', balance%reactions(3))
+      call exchange_vector(archive, 'rigid', balance%rigid(:2))
+      call exchange(archive, 'rigid_moment', balance%rigid(3))
       call exchange(archive, 'is_revolved', balance%is_revolved)
-      call exchange_vector(archive, 'rows', balance%rows)
-      call exchange(archive, 'rows_moment', balance%rows_moment)
+      call exchange_vector(archive, 'rows', balance%rows(:2))
+      call exchange(archive, 'rows_moment', balance%rows(3))
    end subroutine exchange_balance
 
    subroutine exchange_scene(archive, scene)

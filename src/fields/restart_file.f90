@@ -35,13 +35,15 @@ contains
    subroutine write_restart(folder, name, fingerprint, history, state, status)
       character(len=*), intent(in) :: folder, name      !< of the tables; name of the file in it
       type(fingerprint_t), intent(inout) :: fingerprint !< these three are not changed: writing and reading are one procedure
-      type(history_t), intent(inout) :: history         !< all that was found so far
+      type(history_t), intent(inout), target :: history !< all that was found so far
       type(restart_state_t), intent(inout) :: state     !< from which the next increment begins
       type(status_t), intent(out) :: status             !< STATUS_OK or STATUS_FILE
       type(file_set_t) :: set
       type(archive_t) :: archive
       character(len=:), allocatable :: path, kind, program
       integer(ip), allocatable :: increments(:)
+      type(results_t), pointer :: frame
+      integer(ip) :: i
 
       call begin_files(set, folder, status)
       if (.not. is_ok(status)) return
@@ -49,7 +51,14 @@ contains
       call create_archive(path, folder//'/'//name, archive)
       call exchange_origin(archive, kind, program, fingerprint)
       call exchange_findings(archive, history, state, increments)
-      call write_frames(archive, history)
+      if (allocated(history%frames) .and. is_sound(archive)) then
+         do i = 1, size(history%frames, kind=ip)
+            call view_frame(history, i, frame)
+            call begin_part(archive, 'frame_'//to_text(i))
+            call exchange_results(archive, frame)
+            call end_part(archive)
+         end do
+      end if
       call close_archive(archive, status)
       if (is_ok(status)) then
          call commit_over(set, status)
@@ -158,21 +167,6 @@ contains
       call exchange(archive, 'increments of frames', increments)
       call end_part(archive)
    end subroutine exchange_findings
-
-   subroutine write_frames(archive, history)
-      type(archive_t), intent(inout) :: archive
-      type(history_t), intent(in), target :: history
-      type(results_t), pointer :: frame
-      integer(ip) :: i
-
-      if (.not. allocated(history%frames) .or. .not. is_sound(archive)) return
-      do i = 1, size(history%frames, kind=ip)
-         call view_frame(history, i, frame)
-         call begin_part(archive, 'frame_'//to_text(i))
-         call exchange_results(archive, frame)
-         call end_part(archive)
-      end do
-   end subroutine write_frames
 
    subroutine exchange_state(archive, state)
       type(archive_t), intent(inout) :: archive

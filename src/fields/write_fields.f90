@@ -298,14 +298,25 @@ contains
       type(results_t), intent(in) :: results
       type(xdmf_grid_t), allocatable, intent(inout) :: grids(:)
       type(xdmf_grid_t) :: line
-      character(len=:), allocatable :: group
-      integer(ip) :: i
+      character(len=:), allocatable :: group, cells
+      integer(ip) :: i, k
 
       if (.not. allocated(results%contact)) return
       do i = 1, size(results%contact, kind=ip)
          if (results%contact(i)%n == 0) cycle
          group = frame_group(results)//'/pair_'//to_text(i)
-         call put_slave_line(file, group//'/', 'pair '//to_text(i), results%contact(i), line)
+         cells = group//'/cells'
+         associate (n => results%contact(i)%n)      ! the points in the order of s, joined by straight pieces
+            call put_rows(file, group//'/coordinates', PLACES, 'L', results%contact(i)%x(:, :n))
+            if (n == 1) then
+               call begin_grid(line, 'pair '//to_text(i), 'Polyvertex', cells, [1_ip, 1_ip, 1_ip], group//'/coordinates')
+               call put_integers(file, cells, 'row of the point, counted from 0', [0_ip])
+            else
+               call begin_grid(line, 'pair '//to_text(i), 'Polyline', cells, [n - 1, 2_ip, n], group//'/coordinates')
+               call put_array(file, cells, reshape([(k - 1, k, k=1, n - 1)], [2_ip, n - 1]), &
+                              'rows of the points, counted from 0', '-')
+            end if
+         end associate
          call put_contact(file, group//'/', results%contact(i), line)
          grids = [grids, line]
          if (.not. allocated(results%scene%pairs)) cycle
@@ -313,25 +324,6 @@ contains
          call put_attribute(file, group, 'master', results%scene%pairs(i)%master)
       end do
    end subroutine put_pairs
-
-   !> The points in the order of s, joined by straight pieces.
-   subroutine put_slave_line(file, group, name, contact, grid)
-      type(hdf5_file_t), intent(inout) :: file
-      character(len=*), intent(in) :: group, name
-      type(contact_result_t), intent(in) :: contact
-      type(xdmf_grid_t), intent(out) :: grid
-      integer(ip) :: i
-
-      call put_rows(file, group//'coordinates', PLACES, 'L', contact%x(:, :contact%n))
-      if (contact%n == 1) then
-         call begin_grid(grid, name, 'Polyvertex', group//'cells', [1_ip, 1_ip, 1_ip], group//'coordinates')
-         call put_integers(file, group//'cells', 'row of the point, counted from 0', [0_ip])
-      else
-         call begin_grid(grid, name, 'Polyline', group//'cells', [contact%n - 1, 2_ip, contact%n], group//'coordinates')
-         call put_array(file, group//'cells', reshape([(i - 1, i, i=1, contact%n - 1)], [2_ip, contact%n - 1]), &
-                        'rows of the points, counted from 0', '-')
-      end if
-   end subroutine put_slave_line
 
    !> The columns of contact.tab, the displacements of the slave, and the tractions upon it, -p n + sigma_T T with T = n turned by
    !> +90 degrees.

@@ -107,7 +107,8 @@ contains
       type(model_t), intent(in) :: model
       type(file_set_t), intent(inout) :: set
       type(status_t), intent(inout) :: status
-      integer :: i
+      integer :: i, last
+      character(len=:), allocatable :: words
 
       if (.not. allocated(model%as_run)) return
       do i = 1, size(model%as_run)
@@ -117,23 +118,17 @@ contains
                call write_patched(set, file%name, file%text, status, &
                                   before=DECK_MARK//PROGRAM_VERSION//' ran this'//NEW_LINE_CHARACTER)
             else
-               call write_patched(set, file%name, file%text, status, behind=mesh_end(file%text))
+               ! What stands behind the copy of a mesh, on lines of its own.
+               words = MESH_MARK//PROGRAM_VERSION//NEW_LINE_CHARACTER//'$EndComments'//NEW_LINE_CHARACTER
+               if (file%text%n /= 0) then
+                  last = file%text%pieces(file%text%n)%last
+                  if (file%text%texts(1)%s(last:last) /= NEW_LINE_CHARACTER) words = NEW_LINE_CHARACTER//words
+               end if
+               call write_patched(set, file%name, file%text, status, behind=words)
             end if
          end associate
       end do
    end subroutine write_deck_as_run
-
-   !> What stands behind the copy of a mesh, on lines of its own.
-   pure function mesh_end(text) result(words)
-      type(patched_text_t), intent(in) :: text
-      character(len=:), allocatable :: words
-      integer :: last
-
-      words = MESH_MARK//PROGRAM_VERSION//NEW_LINE_CHARACTER//'$EndComments'//NEW_LINE_CHARACTER
-      if (text%n == 0) return
-      last = text%pieces(text%n)%last
-      if (text%texts(1)%s(last:last) /= NEW_LINE_CHARACTER) words = NEW_LINE_CHARACTER//words
-   end function mesh_end
 
    !> What an earlier run may have left: tables, fields, and its deck.
    subroutine list_stale_files(model, folder, names)

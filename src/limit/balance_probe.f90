@@ -48,6 +48,7 @@ contains
       real(wp) :: began
       integer(ip) :: k
       integer :: i
+      character(len=:), allocatable :: text
 
       answer = STANDS
       excess = 0.0_wp
@@ -59,7 +60,12 @@ contains
          do i = 1, size(times)
             if (size(model%steps) > 1 .or. size(times) > 1) call set_time(data, moment_t(times(i), began + times(i)))
             if (present(collapse)) then
-               call ask_moment(moment_text(model, k, times(i), began), collapse)
+               ! The time, where there is more than one to be asked about.
+               text = ''
+               if (.not. (size(model%steps) == 1 .and. model%steps(1)%increments%initial >= model%steps(1)%increments%period)) then
+                  text = 'in step '//to_text(k)//', at time '//to_text(began + times(i), 6)//': '
+               end if
+               call ask_moment(text, collapse)
             else
                call ask_moment('')
             end if
@@ -180,18 +186,6 @@ contains
                 //' apart without loads; without them nothing balances the loads, so its limit says little of what stands'
       end if
    end subroutine describe_gaps
-
-   !> The time, where there is more than one to be asked about.
-   pure function moment_text(model, k, time, began) result(text)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: k
-      real(wp), intent(in) :: time, began           !< of the step, and when it began
-      character(len=:), allocatable :: text
-
-      text = ''
-      if (size(model%steps) == 1 .and. model%steps(1)%increments%initial >= model%steps(1)%increments%period) return
-      text = 'in step '//to_text(k)//', at time '//to_text(began + time, 6)//': '
-   end function moment_text
 
    subroutine describe_collapse(data, motions, certificate, collapse)
       type(scene_data_t), intent(in) :: data

@@ -97,7 +97,13 @@ contains
       balance%share = columns%share(:, :columns%n)
       call set_rows(balance)
       call add_remainders(balance%n_motions, maxval([0_ip, kinds%bound, balance%n_motions]), least_largest, columns)
-      call take_columns(columns, balance%program)
+      balance%program%n_columns = columns%n
+      balance%program%first = columns%first(:columns%n + 1)
+      balance%program%row = columns%row(:columns%n_entries)
+      balance%program%entry = columns%entry(:columns%n_entries)
+      allocate (balance%program%lower(columns%n), source=0.0_wp)
+      allocate (balance%program%upper(columns%n), source=HUGE_REAL)
+      balance%program%objective = columns%cost(:columns%n)
 
    contains
 
@@ -153,7 +159,10 @@ contains
       n = n_motions
       do j = 1, line%n
          if (.not. kinds%rubs(j)) cycle
-         kinds%is_cone(j) = line%normal(j) > 0 .and. users(j) == 1 .and. depends_on_itself(line, j)
+         associate (first => line%average%first(j), last => line%average%first(j + 1) - 1)
+            kinds%is_cone(j) = line%normal(j) > 0 .and. users(j) == 1 .and. &
+                               all(line%average%column(first:last) == j .or. line%average%value(first:last) <= 0.0_wp)
+         end associate
          if (kinds%is_cone(j)) cycle
          n = n + 1
          kinds%bound(j) = n
@@ -166,15 +175,6 @@ contains
 
       works = any(row_of_motion(rows%column(rows%first(i):rows%first(i + 1) - 1)) > 0)
    end function works
-
-   pure logical function depends_on_itself(line, j)
-      type(contact_line_t), intent(in) :: line
-      integer(ip), intent(in) :: j
-
-      associate (first => line%average%first(j), last => line%average%first(j + 1) - 1)
-         depends_on_itself = all(line%average%column(first:last) == j .or. line%average%value(first:last) <= 0.0_wp)
-      end associate
-   end function depends_on_itself
 
    !> The columns of all points, the friction first: it sets the scales of the rows of its bounds.
    subroutine add_contact_columns(rows, line, wanted, row_of_motion, scale, kinds, columns)
@@ -378,19 +378,6 @@ contains
          columns%share(:, columns%n) = columns%share(:, columns%n)/largest
       end associate
    end subroutine scale_column
-
-   pure subroutine take_columns(columns, program)
-      type(columns_t), intent(in) :: columns
-      type(linear_program_t), intent(inout) :: program
-
-      program%n_columns = columns%n
-      program%first = columns%first(:columns%n + 1)
-      program%row = columns%row(:columns%n_entries)
-      program%entry = columns%entry(:columns%n_entries)
-      allocate (program%lower(columns%n), source=0.0_wp)
-      allocate (program%upper(columns%n), source=HUGE_REAL)
-      program%objective = columns%cost(:columns%n)
-   end subroutine take_columns
 
    !> Adds the forces of the columns to q.
    pure subroutine forces_of_columns(balance, x, q)

@@ -20,10 +20,10 @@
 !> what forces of the bodies' size would work where a bracket is above zero by more than ROUND_OFF of its terms (motion_excess). q
 !> is believed where G'q - h is round-off of the forces on each motion and on each body (forces_balance).
 module atrito_certificate
-   use atrito_balance_groups, only: balance_groups_t, find_groups
    use atrito_balance_program, only: balance_program_t, build_balance_program, forces_of_columns
    use atrito_clp, only: solve_linear_program
    use atrito_contact_line, only: contact_line_t, pressure_of, friction_bound
+   use atrito_joined_sets, only: find_lowest, join_sets
    use atrito_kinds, only: ip, wp
    use atrito_linear_program, only: linear_solution_t, LP_BY_SIMPLEX, LP_BY_BARRIER, LP_OPTIMAL, LP_NOT_AVAILABLE
    use atrito_motion_polish, only: polish_motion
@@ -32,7 +32,7 @@ module atrito_certificate
    implicit none (type, external)
    private
    public :: certificate_t, prove_balance, find_largest_share, motion_excess, friction_work, forces_balance
-   public :: BALANCE_IMPOSSIBLE, BALANCE_POSSIBLE, BALANCE_UNDECIDED
+   public :: BALANCE_IMPOSSIBLE, BALANCE_POSSIBLE, BALANCE_UNDECIDED, balance_groups_t, find_groups
 
    integer, parameter :: BALANCE_UNDECIDED = 0, BALANCE_POSSIBLE = 1, BALANCE_IMPOSSIBLE = 2
 
@@ -54,6 +54,15 @@ module atrito_certificate
    real(wp), parameter :: NO_MOTION = 1.0e-9_wp   !< of the largest, scaled by forces
    integer(ip), parameter :: MOST_PASSES = 3_ip
    integer(ip), parameter :: MANY_MOTIONS = 500_ip !< from here on interior points are faster than simplex steps
+
+   !> Bodies that touch each other, directly or through others: the balance of each such group is a question of its own. Bodies are
+   !> given by their rigid motions; one that the supports hold has none and parts the groups. Points whose pressures are averaged
+   !> together belong together, since the pressure of one raises the friction of the other.
+   type :: balance_groups_t
+      integer(ip) :: n = 0                       !< groups
+      integer(ip), allocatable :: of_motion(:)   !< (k) 1 .. n
+      integer(ip), allocatable :: of_point(:)    !< (line%n) 0: no motion, and none of what it is averaged with
+   end type balance_groups_t
 
 contains
 
@@ -315,13 +324,19 @@ contains
       logical, intent(out) :: proven             !< no forces can balance the loads
       real(wp) :: rate(rows%n), terms(rows%n), by_friction(line%n), known_work, work_size, taken, handed_on, resisted
       real(wp) :: unsure(rows%n), rubbed(line%n)    ! by digits: rates, and of friction
-      integer(ip) :: i
+      integer(ip) :: i, j
 
       call multiply_rows(rows, v, rate, terms)
       call friction_work(line, rate, by_friction, known_work)
       excess = dot_product(rows%work, v) - known_work
       work_size = dot_product(rows%work_size, abs(v)) + known_work
-      unsure = rates_of_digits(rows, v)
+      ! What the digits of the deck may make each row see of a motion.
+      unsure = 0.0_wp
+      if (allocated(rows%doubt)) then
+         do j = 1, rows%n
+            unsure(j) = rows%doubt(j)*sum(abs(v(rows%column(rows%first(j):rows%first(j + 1) - 1))))
+         end do
+      end if
       call friction_work(line, unsure, rubbed)
       taken = 0.0_wp
       handed_on = 0.0_wp
@@ -341,20 +356,6 @@ contains
       end do
       proven = excess > CLEAR*work_size .and. excess > MANY_TIMES*taken .and. excess > SOME_TIMES*handed_on
    end subroutine motion_excess
-
-   !> What the digits of the deck may make each row see of a motion.
-   pure function rates_of_digits(rows, v) result(unsure)
-      type(motion_rows_t), intent(in) :: rows
-      real(wp), intent(in) :: v(:)
-      real(wp) :: unsure(rows%n)
-      integer(ip) :: i
-
-      unsure = 0.0_wp
-      if (.not. allocated(rows%doubt)) return
-      do i = 1, rows%n
-         unsure(i) = rows%doubt(i)*sum(abs(v(rows%column(rows%first(i):rows%first(i + 1) - 1))))
-      end do
-   end function rates_of_digits
 
    !> What a unit of each pressure force takes by friction, at its own point and where it is averaged; and what known ones take.
    pure subroutine friction_work(line, rate, by_friction, known_work)
@@ -410,5 +411,45 @@ contains
       call measure_forces(rows, q, member, body_force)
       balanced = balanced .and. all(remainder <= IN_BALANCE*sizes + OF_BODY*body_force .or. .not. member)
    end function forces_balance
+
+   !> Groups in the order of their first motions.
+   !>
+   !> Motions and points are the members of sets that are joined: the motions of a body; each point with the motions that its rows
+   !> see; points one of whose pressure is in the friction bound of the other. What is joined in the end is a group. A body that
+   !> supports hold has no motion, so it joins nothing: a wall on its foundation is one group, two walls on one foundation are two.
+   pure subroutine find_groups(rows, line, groups)
+      type(motion_rows_t), intent(in) :: rows       !< G, and the body of each motion
+      type(contact_line_t), intent(in) :: line      !< laws and averages of its points are read
+      type(balance_groups_t), intent(out) :: groups !< (k) and (line%n), numbered from 1
+      integer(ip) :: parent(rows%n_columns + line%n), number(rows%n_columns + line%n), i, j, e
+
+      parent = [(i, i=1, rows%n_columns + line%n)]
+      do i = 2, rows%n_columns
+         if (rows%body(i) == rows%body(i - 1)) call join_sets(parent, i, i - 1)
+      end do
+      do i = 1, rows%n
+         do e = rows%first(i), rows%first(i + 1) - 1
+            call join_sets(parent, rows%n_columns + line%point(i), rows%column(e))
+         end do
+      end do
+      do j = 1, line%n
+         if (line%tangential(j) == 0 .or. line%law(j)%nu <= 0) cycle
+         do e = line%average%first(j), line%average%first(j + 1) - 1
+            if (line%average%value(e) > 0) call join_sets(parent, rows%n_columns + line%average%column(e), rows%n_columns + j)
+         end do
+      end do
+      allocate (groups%of_motion(rows%n_columns), groups%of_point(line%n))
+      number = 0
+      do i = 1, rows%n_columns + line%n
+         e = i
+         call find_lowest(parent, e)
+         if (i <= rows%n_columns .and. number(e) == 0) then
+            groups%n = groups%n + 1
+            number(e) = groups%n
+         end if
+         if (i <= rows%n_columns) groups%of_motion(i) = number(e)
+         if (i > rows%n_columns) groups%of_point(i - rows%n_columns) = number(e)
+      end do
+   end subroutine find_groups
 
 end module atrito_certificate

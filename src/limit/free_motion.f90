@@ -54,7 +54,15 @@ contains
          driven = 'the load drives it with '
          if (subject == 'they') driven = 'the loads drive them with '
          if (mechanism%turns) then
-            text = turning_text(pairs, mechanism, subject)
+            text = 'the load turns it with '
+            if (subject == 'they') text = 'the loads turn them with '
+            text = text//driving(mechanism, .true.)//' about that point, and '
+            if (any(mechanism%slides) .and. mechanism%friction > SMALL*mechanism%load) then
+               text = text//'friction holds '//amount(mechanism%friction, .true.)//' at most, '//shortfall(mechanism, .true.)
+            else
+               text = text//'no pressure there holds '//trim(merge('it  ', 'them', subject == 'it'))
+            end if
+            text = text//joint_text(pairs, mechanism)
          else if (any(mechanism%slides)) then
             text = subject//trim(merge(' slides', ' slide ', subject == 'it'))//joint_text(pairs, mechanism)//', '//driven//'H = ' &
                    //driving(mechanism, .false.)//' and '//friction_text(line, mechanism)
@@ -123,23 +131,6 @@ contains
       if (i < min(n, MOST_NAMES)) text = ', '
       if (i == n - 1 .and. n <= MOST_NAMES .or. i == MOST_NAMES .and. n > MOST_NAMES) text = ' and '
    end function separator
-
-   function turning_text(pairs, mechanism, subject) result(text)
-      type(pair_scene_t), intent(in) :: pairs(:)
-      type(mechanism_t), intent(in) :: mechanism
-      character(len=*), intent(in) :: subject
-      character(len=:), allocatable :: text
-
-      text = 'the load turns it with '
-      if (subject == 'they') text = 'the loads turn them with '
-      text = text//driving(mechanism, .true.)//' about that point, and '
-      if (any(mechanism%slides) .and. mechanism%friction > SMALL*mechanism%load) then
-         text = text//'friction holds '//amount(mechanism%friction, .true.)//' at most, '//shortfall(mechanism, .true.)
-      else
-         text = text//'no pressure there holds '//trim(merge('it  ', 'them', subject == 'it'))
-      end if
-      text = text//joint_text(pairs, mechanism)
-   end function turning_text
 
    !> What friction can hold on a sliding motion.
    function friction_text(line, mechanism) result(text)
@@ -247,24 +238,27 @@ contains
       logical, intent(in) :: held(:, :)        !< (2, n_nodes)
       type(contact_rows_t), intent(in) :: rows
       character(len=:), allocatable :: text
-      integer(ip) :: b, i, dof, n, first, first_dof
+      integer(ip) :: b, i, dof, dofs, n, first, first_dof
       integer(ip), allocatable :: of_one(:)    ! bilateral rows of one of the bodies alone
+      logical :: is_held
 
       n = 0
       first = 0
       first_dof = 0
       do b = 1, size(bodies, kind=ip)
-         associate (nodes => fem%bodies%list(bodies(b))%nodes)
-            if (fem%bodies%list(bodies(b))%is_rigid) then
-               call count_rigid_supports(fem, bodies(b), n, first, first_dof)
-               cycle
-            end if
-            do i = 1, size(nodes, kind=ip)
-               do dof = 1, 2
-                  if (.not. held(dof, nodes(i))) cycle
-                  n = n + 1
-                  if (first > 0) cycle
-                  first = fem%mesh%node_id(nodes(i))
+         associate (body => fem%bodies%list(bodies(b)))
+            dofs = 2
+            if (body%is_rigid) dofs = size(body%modes, 1, kind=ip)
+            do i = 1, merge(1_ip, size(body%nodes, kind=ip), body%is_rigid)
+               do dof = 1, dofs
+                  if (body%is_rigid) then           ! of u1, u2 and the rotation that in which its modes have nothing
+                     is_held = .not. any(abs(body%modes(dof, :)) > 0.0_wp)
+                  else
+                     is_held = held(dof, body%nodes(i))
+                  end if
+                  if (is_held) n = n + 1
+                  if (first > 0 .or. .not. is_held) cycle
+                  first = fem%mesh%node_id(body%nodes(i))
                   first_dof = dof
                end do
             end do
@@ -287,23 +281,5 @@ contains
          text = text//') do not prevent that'
       end if
    end function support_text
-
-   !> What of u1, u2 and the rotation of a rigid body is prescribed: the rows in which its modes have nothing.
-   pure subroutine count_rigid_supports(fem, b, n, first, first_dof)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: b
-      integer(ip), intent(inout) :: n, first, first_dof !< supports; the user's number of the first node, and its dof
-      integer(ip) :: dof
-
-      associate (body => fem%bodies%list(b))
-         do dof = 1, size(body%modes, 1, kind=ip)
-            if (any(abs(body%modes(dof, :)) > 0.0_wp)) cycle
-            n = n + 1
-            if (first > 0) cycle
-            first = fem%mesh%node_id(body%nodes(1))
-            first_dof = dof
-         end do
-      end associate
-   end subroutine count_rigid_supports
 
 end module atrito_free_motion

@@ -15,9 +15,8 @@ module atrito_idle_motions
    use atrito_friction_law, only: FRICTION_NONE
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, wp
-   use atrito_least_motions, only: measure_motions, take_least
+   use atrito_least_motions, only: measure_motions, take_least, take_rounding_off
    use atrito_load_digits, only: is_within_digits, take_out
-   use atrito_long_ways, only: take_rounding_off
    use atrito_motion_rows, only: motion_rows_t, build_motion_rows, note_digits, join_motions, MOST_PART
    use atrito_own_axes, only: prove_in_own_axes
    use atrito_scene_data, only: scene_data_t
@@ -350,7 +349,7 @@ contains
       real(wp) :: found(size(group), size(group))
       real(wp), allocatable :: a(:, :), values(:)
       integer(ip), allocatable :: first(:), member(:), of_group(:), list(:)
-      integer(ip) :: place(size(group)), g, i, j, n, info
+      integer(ip) :: place(size(group)), g, i, j, n, info, d, e
 
       n = 0
       allocate (of_group(rows%n), source=0_ip)
@@ -365,7 +364,13 @@ contains
          place(list) = [(i, i=1, size(list, kind=ip))]
          allocate (a(size(list), size(list)), source=0.0_wp)
          do j = first(g), first(g + 1) - 1
-            call add_row(rows, member(j), place, a)
+            ! Adds G_i' G_i of a row to the matrix of its group.
+            do d = rows%first(member(j)), rows%first(member(j) + 1) - 1
+               do e = rows%first(member(j)), rows%first(member(j) + 1) - 1
+                  a(place(rows%column(d)), place(rows%column(e))) = a(place(rows%column(d)), place(rows%column(e))) &
+                                                                    + rows%value(d)*rows%value(e)
+               end do
+            end do
          end do
          if (may_be_singular(a)) then
             allocate (values(size(list)))
@@ -400,21 +405,5 @@ contains
       call factor_in_blocks(shifted, failed)
       may_be_singular = failed > 0
    end function may_be_singular
-
-   !> Adds G_i' G_i of a row to the matrix of its group.
-   pure subroutine add_row(rows, i, place, a)
-      type(motion_rows_t), intent(in) :: rows
-      integer(ip), intent(in) :: i
-      integer(ip), intent(in) :: place(:)           !< (k) of the motions in their group
-      real(wp), intent(inout) :: a(:, :)
-      integer(ip) :: d, e
-
-      do d = rows%first(i), rows%first(i + 1) - 1
-         do e = rows%first(i), rows%first(i + 1) - 1
-            a(place(rows%column(d)), place(rows%column(e))) = a(place(rows%column(d)), place(rows%column(e))) &
-                                                              + rows%value(d)*rows%value(e)
-         end do
-      end do
-   end subroutine add_row
 
 end module atrito_idle_motions

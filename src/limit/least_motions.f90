@@ -3,24 +3,34 @@
 !> From the displacements u that were found, and u' of the increment before, the sum over all nodes of (u + V s - u')^2 is made
 !> least, V being the idle motions, under the conditions that no point that is open closes beyond its gap and none that slips goes
 !> back.
+!>
+!> What the rounding of a long way leaves. Where rigid motions are 1e5 times the strains, the rows that hold are off by EPS_MACH
+!> times the way, far more than their own rounding; and points that should just touch overlap by as much.
 module atrito_least_motions
    use atrito_assembly, only: fem_t
    use atrito_bound_qp, only: FREE, AT_LOWER, AT_UPPER
+   use atrito_contact_line, only: rest_of
+   use atrito_contact_rows, only: row_value
    use atrito_contact_solution, only: contact_solution_t
    use atrito_dense, only: eigen_symmetric, least_squares
-   use atrito_kinds, only: ip, wp
-   use atrito_motion_rows, only: motion_rows_t
+   use atrito_kinds, only: ip, wp, EPS_MACH
+   use atrito_motion_rows, only: motion_rows_t, join_motions
    use atrito_row_entries, only: first_motions, modes_at_node
+   use atrito_scene_data, only: scene_data_t
    use atrito_sparse_rows, only: multiply_rows
    implicit none (type, external)
    private
-   public :: measure_motions, take_least
+   public :: measure_motions, take_least, take_rounding_off
 
    integer(ip), parameter :: MOST_SWEEPS = 1000_ip
    real(wp), parameter :: LEAST_SEEN = 1.0e-20_wp         !< square of what a row sees of the motions, of the largest
    real(wp), parameter :: NO_WAY = 1.0e-12_wp       !< of the displacements: it is rounding that is not least
    real(wp), parameter :: BACK = 1.0e-13_wp         !< what rounding leaves of a way and the way back
    real(wp), parameter :: SETTLED = 1.0e-14_wp
+
+   real(wp), parameter :: MOST_ENTRIES = 1.0e6_wp   !< of the rows that are closed again
+   real(wp), parameter :: LEAST_ROUNDING = 20*EPS_MACH, ROUNDING = 1.0e-12_wp !< of a way that bodies went
+   integer(ip), parameter :: MOST_CLOSINGS = 5_ip   !< of points that it has made overlap
 
 contains
 
@@ -95,11 +105,17 @@ contains
       type(contact_solution_t), intent(inout) :: solution !< its motions change, and `r` of rows at a bound
       real(wp), intent(out) :: way(:)                     !< (k) that the bodies went [L]; 0 where they did not
       real(wp) :: basis(size(idle, 1), size(idle, 2)), gram(size(idle, 2), size(idle, 2)), values(size(idle, 2))
-      real(wp) :: rate(rows%n)
-      integer(ip) :: j, info
+      real(wp) :: rate(rows%n), product(size(idle, 1), size(idle, 2))
+      integer(ip) :: j, info, first(fem%bodies%n + 1), b
 
       way = 0.0_wp
-      gram = matmul(transpose(idle), times_metric(fem, metric, idle))
+      first = first_motions(fem%bodies)
+      do b = 1, fem%bodies%n
+         associate (n => first(b + 1) - first(b), at => first(b))
+            product(at:at + n - 1, :) = matmul(metric(:n, :n, b), idle(at:at + n - 1, :))
+         end associate
+      end do
+      gram = matmul(transpose(idle), product)
       call eigen_symmetric(gram, values, info)
       if (info /= 0) return
       basis = matmul(idle, gram)
@@ -119,20 +135,6 @@ contains
       where (solution%state%state /= FREE) solution%state%r = solution%state%r + rate
       solution%has_settled = .true.
    end subroutine take_least
-
-   pure function times_metric(fem, metric, v) result(product)
-      type(fem_t), intent(in) :: fem
-      real(wp), intent(in) :: metric(:, :, :), v(:, :)
-      real(wp) :: product(size(v, 1), size(v, 2))
-      integer(ip) :: first(fem%bodies%n + 1), b
-
-      first = first_motions(fem%bodies)
-      do b = 1, fem%bodies%n
-         associate (n => first(b + 1) - first(b), at => first(b))
-            product(at:at + n - 1, :) = matmul(metric(:n, :n, b), v(at:at + n - 1, :))
-         end associate
-      end do
-   end function times_metric
 
    !> The point s nearest to the wanted one at which no row that is at a bound would have to leave it: r + A s <= 0 at the lower
    !> bound, >= 0 at the upper one. By Hildreth's method: projections onto one condition after the other, each with a multiplier >=
@@ -242,5 +244,92 @@ contains
       end subroutine go_onto_planes
 
    end subroutine meet_exactly
+
+   !> After a long way: rows that hold are closed where their bodies have moved (others are exact to their own rounding, which
+   !> may be far less), then open points that the rounding of the way has made overlap, with what holds the motions that they
+   !> see.
+   subroutine take_rounding_off(data, rows, group, way, u, holds, solution)
+      type(scene_data_t), intent(in) :: data
+      type(motion_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: group(:)           !< (k)
+      real(wp), intent(in) :: way(:)                !< (k) that the bodies went [L]
+      real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) without rigid motions [L]
+      logical, intent(in) :: holds(:)               !< (m)
+      type(contact_solution_t), intent(inout) :: solution
+      logical :: closes(rows%n), overlaps(rows%n), is_seen(rows%n_columns)
+      integer(ip), allocatable :: joined(:)
+      integer(ip) :: closing, i
+
+      call close_rows(data, rows, [(holds(i) .and. has_moved(rows, group, way, i), i=1, rows%n)], u, solution)
+      closes = .false.
+      do closing = 1, MOST_CLOSINGS
+         associate (r => solution%state%r/maxval(abs(way)))
+            overlaps = solution%state%state == AT_LOWER .and. r > LEAST_ROUNDING .and. r <= ROUNDING
+         end associate
+         overlaps(count(data%line%normal > 0) + 1:) = .false.
+         if (.not. any(overlaps .and. .not. closes)) return
+         closes = closes .or. overlaps .or. holds
+         call join_motions(rows, closes, joined)
+         is_seen = .false.
+         is_seen(joined(rows%column(pack(rows%first(:rows%n), overlaps)))) = .true.
+         closes = closes .and. [(any(is_seen(joined(rows%column(rows%first(i):rows%first(i + 1) - 1)))), i=1, rows%n)]
+         call close_rows(data, rows, closes, u, solution)
+      end do
+   end subroutine take_rounding_off
+
+   !> Whether a row is one of a group of bodies of which some have gone a way.
+   pure logical function has_moved(rows, group, way, i)
+      type(motion_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: group(:), i
+      real(wp), intent(in) :: way(:)
+      integer(ip) :: e
+
+      has_moved = .false.
+      do e = rows%first(i), rows%first(i + 1) - 1
+         has_moved = has_moved .or. any(abs(way) > 0.0_wp .and. group == group(rows%column(e)))
+      end do
+   end function has_moved
+
+   !> After a long way rows are off by its rounding: the least rigid motions that put them right.
+   !>
+   !> A row that holds says G_i a + row_i(u) = D_i q_i (gap, rest slip and value are in row_i); what it is off by then is EPS_MACH
+   !> times the way or so. The least b with G b = off, in the sense of least squares, is taken off the motions.
+   subroutine close_rows(data, rows, closes, u, solution)
+      type(scene_data_t), intent(in) :: data
+      type(motion_rows_t), intent(in) :: rows
+      logical, intent(in) :: closes(:)              !< (m)
+      real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) without rigid motions [L]
+      type(contact_solution_t), intent(inout) :: solution !< motions, and r of open rows
+      real(wp), parameter :: DEPENDENT = 1.0e-8_wp
+      real(wp), allocatable :: g(:, :), off(:)
+      real(wp) :: back(rows%n_columns), moved(rows%n), value
+      integer(ip), allocatable :: list(:)
+      integer(ip) :: i, rank, info
+
+      list = pack([(i, i=1, rows%n)], closes)
+      if (size(list) == 0 .or. real(size(list), wp)*rows%n_columns > MOST_ENTRIES) return
+      allocate (g(size(list), rows%n_columns), source=0.0_wp)
+      allocate (off(size(list)))
+      call multiply_rows(rows, solution%state%a, moved)
+      do i = 1, size(list, kind=ip)
+         associate (k => list(i))
+            g(i, rows%column(rows%first(k):rows%first(k + 1) - 1)) = rows%value(rows%first(k):rows%first(k + 1) - 1)
+            ! What the displacements make of row i beyond its gap, rest slip or value [L].
+            associate (j => data%line%point(k))
+               if (data%line%normal(j) == k) then
+                  value = row_value(data%rows, j, data%rows%normal(:, j), u) - data%rows%gap(j)
+               else
+                  value = row_value(data%rows, j, data%rows%tangent(:, j), u) - rest_of(data%line, j)
+               end if
+            end associate
+            off(i) = moved(k) - solution%bounds%d(k)*solution%state%q(k) + value
+         end associate
+      end do
+      call least_squares(g, off, back, DEPENDENT, rank, info)
+      if (info /= 0) return
+      solution%state%a = solution%state%a - back
+      call multiply_rows(rows, back, moved)
+      where (solution%state%state /= FREE) solution%state%r = solution%state%r - moved
+   end subroutine close_rows
 
 end module atrito_least_motions

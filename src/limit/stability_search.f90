@@ -228,12 +228,18 @@ contains
       integer, intent(in) :: standing
       real(wp), intent(out) :: x
       integer, intent(out) :: step
-      real(wp) :: start, stand, fall, next
+      real(wp) :: start, stand, fall, next, at
+      type(tried_t) :: known
+      integer :: i
 
       start = search%ends(standing)
       stand = abs(standing_value(search) - start)
       fall = distance_of_fall(search, start)
-      next = next_undecided(search, start, stand, fall)
+      next = fall                                   ! or the first undecided value behind the last one that stands
+      do i = 1, size(search%tried)
+         at = abs(search%tried(i)%x - start)
+         if (search%tried(i)%solution == UNDECIDED .and. at > stand) next = min(next, at)
+      end do
       step = STEP_DONE
       x = start
       if (fall - stand <= allowed_width(search)) return
@@ -243,7 +249,8 @@ contains
       step = STEP_SOLVE
       do
          x = start + signed(search, standing, stand + search%stride)
-         if (is_unsolved(search, x)) return
+         known = known_of(search, x)
+         if (known%solution == UNKNOWN) return
          search%stride = LITTLE_LESS*search%stride
       end do
    end subroutine narrow_solutions
@@ -381,20 +388,6 @@ contains
       x = reached_value(search, start, distance_of_fall(search, start))
    end function balanced_value
 
-   !> The distance of the first undecided value behind the last one that stands; that of the fall where there is none.
-   pure real(wp) function next_undecided(search, start, stand, fall) result(next)
-      type(search_t), intent(in) :: search
-      real(wp), intent(in) :: start, stand, fall
-      real(wp) :: at
-      integer :: i
-
-      next = fall
-      do i = 1, size(search%tried)
-         at = abs(search%tried(i)%x - start)
-         if (search%tried(i)%solution == UNDECIDED .and. at > stand) next = min(next, at)
-      end do
-   end function next_undecided
-
    !> How far apart the two may be in the end.
    pure real(wp) function allowed_width(search)
       type(search_t), intent(in) :: search !< begun
@@ -459,15 +452,6 @@ contains
 
       has_fallen = one%balance == FALLS
    end function has_fallen
-
-   pure logical function is_unsolved(search, x)
-      type(search_t), intent(in) :: search
-      real(wp), intent(in) :: x
-      type(tried_t) :: known
-
-      known = known_of(search, x)
-      is_unsolved = known%solution == UNKNOWN
-   end function is_unsolved
 
    pure type(tried_t) function known_of(search, x) result(known)
       type(search_t), intent(in) :: search

@@ -64,7 +64,14 @@ contains
       if (allocated(ends)) then
          verdict = verdict//'; '//ends
       else
-         verdict = verdict//'; '//knowledge(certificate)
+         if (certificate%verdict == BALANCE_POSSIBLE) then
+            verdict = verdict//'; there are forces that the contact can take and that balance the loads, but no solution with '// &
+                      'them was found'
+         else if (certificate%solver_missing) then
+            verdict = verdict//'; whether the contact can take the loads at all cannot be told without Clp: '//clp_trouble()
+         else
+            verdict = verdict//'; whether the contact can take the loads at all is not decided, it is too near the limit'
+         end if
       end if
 
    contains
@@ -209,18 +216,5 @@ contains
              'slave may, as at ('//to_text(places(1, 1), 6)//', '//to_text(places(2, 1), 6)//'): it takes a node of the slave '// &
              'there, or the other surface as the slave'
    end subroutine look_at_ends
-
-   function knowledge(certificate) result(text)
-      type(certificate_t), intent(in) :: certificate
-      character(len=:), allocatable :: text
-
-      if (certificate%verdict == BALANCE_POSSIBLE) then
-         text = 'there are forces that the contact can take and that balance the loads, but no solution with them was found'
-      else if (certificate%solver_missing) then
-         text = 'whether the contact can take the loads at all cannot be told without Clp: '//clp_trouble()
-      else
-         text = 'whether the contact can take the loads at all is not decided, it is too near the limit'
-      end if
-   end function knowledge
 
 end module atrito_verdict

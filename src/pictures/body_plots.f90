@@ -58,8 +58,9 @@ contains
       type(drawing_t), intent(inout) :: drawing     !< by draw_mesh; its window has room for the symbols while this is written
       type(string_t), allocatable :: symbols(:), styles(:)     ! curves over the bodies
       type(range_t) :: window(2)
-      integer(ip) :: first
+      integer(ip) :: first, i
       logical :: is_big
+      type(string_t) :: names(maxval(drawing%lines%body))
 
       window = drawing%window
       call write_lines(plots, MESH_PLOT, 'edges of the elements as polylines; columns: x [L]  y [L]  u1 [L]  u2 [L]', drawing, &
@@ -69,7 +70,14 @@ contains
                         'Columns of mesh.dat: 1 x [L], 2 y [L], 3 u1 [L], 4 u2 [L]; a block a body and kind of line')
       call put_head(plots, drawing, '')
       is_big = drawing%model%mesh%n_nodes > FEW_NODES
-      styles = run_styles(drawing, names_of_run(drawing), trim(merge('0.5', '1  ', is_big)), '2.5')
+      ! The bodies' names as the results of a run have them.
+      do i = 1, size(names, kind=ip)
+         names(i)%s = 'body '//to_text(i)
+         if (.not. allocated(drawing%results%scene%bodies)) cycle
+         if (i > size(drawing%results%scene%bodies)) cycle
+         if (allocated(drawing%results%scene%bodies(i)%name)) names(i)%s = drawing%results%scene%bodies(i)%name
+      end do
+      styles = run_styles(drawing, names, trim(merge('0.5', '1  ', is_big)), '2.5')
       call put_bodies_plane(plots, drawing, [styles, symbols])
       call put_title(plots, scale_title(drawing))
       first = 0
@@ -77,20 +85,6 @@ contains
       call put_scene(plots, drawing, first, 'undeformed', styles, symbols)
       drawing%window = window
    end subroutine write_mesh_plot
-
-   !> The bodies' names as the results of a run have them.
-   pure function names_of_run(drawing) result(names)
-      type(drawing_t), intent(in) :: drawing
-      type(string_t) :: names(maxval(drawing%lines%body))
-      integer(ip) :: i
-
-      do i = 1, size(names, kind=ip)
-         names(i)%s = 'body '//to_text(i)
-         if (.not. allocated(drawing%results%scene%bodies)) cycle
-         if (i > size(drawing%results%scene%bodies)) cycle
-         if (allocated(drawing%results%scene%bodies(i)%name)) names(i)%s = drawing%results%scene%bodies(i)%name
-      end do
-   end function names_of_run
 
    !> Writes scene.dat, scene-symbols.dat and scene.gp.
    subroutine write_scene_plot(plots, model, view)

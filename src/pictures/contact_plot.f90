@@ -51,6 +51,7 @@ contains
       type(range_t) :: along
       integer(ip), allocatable :: shown(:)
       logical :: friction
+      character(len=:), allocatable :: dot
 
       law = model%interactions(model%pairs(pair)%interaction)
       shown = shown_frames(history)
@@ -69,7 +70,14 @@ contains
          call put_frame(plots, merge(4_ip, 2_ip, friction), along, '"s [L]"')
          if (friction) call put(plots, 'nu = '//to_text(law%nu, 12)//LF//'eps = '//to_text(law%eps, 12))
          call put_terminal(plots, '1000,height')
-         call put_styles(plots, contact%n)
+         ! Curves 1 to 3, points of each status 4 to 6; many points are drawn smaller.
+         dot = 'dot*'//to_text(min(1.0_wp, max(0.25_wp, 6.0_wp/sqrt(real(max(contact%n, 1_ip), wp)))), 2)
+         call put(plots, 'set style line 1 lt 1 lw 2 lc rgb "'//COLOUR(1)//'"'//LF// &
+                  'set style line 2 lw 2 dt (8,5) lc rgb "'//COLOUR(6)//'"'//LF// &
+                  'set style line 3 lw 1.5 dt (7,5) lc rgb "#404040"'//LF// &
+                  'set style line 4 pt 6 lw 1.5 lc rgb "black" ps '//dot//LF// &
+                  'set style line 5 pt 7 lw 1.5 lc rgb "black" ps '//dot//LF// &
+                  'set style line 6 pt 9 lw 1.5 lc rgb "'//COLOUR(2)//'" ps 1.2*'//dot)
          call put(plots, 'set multiplot title heading."\n".pair_line noenhanced')
          call put_panels(plots, history, shown, pair, law, friction)
       end associate
@@ -157,21 +165,6 @@ contains
       end select
       if (law%delta > 0.0_wp) text = text//', '//GREEK_DELTA//' = '//to_text(law%delta)
    end function law_text
-
-   !> Curves 1 to 3, points of each status 4 to 6; many points are drawn smaller.
-   subroutine put_styles(plots, n)
-      type(plots_t), intent(inout) :: plots
-      integer(ip), intent(in) :: n                  !< points
-      character(len=:), allocatable :: dot
-
-      dot = 'dot*'//to_text(min(1.0_wp, max(0.25_wp, 6.0_wp/sqrt(real(max(n, 1_ip), wp)))), 2)
-      call put(plots, 'set style line 1 lt 1 lw 2 lc rgb "'//COLOUR(1)//'"'//LF// &
-               'set style line 2 lw 2 dt (8,5) lc rgb "'//COLOUR(6)//'"'//LF// &
-               'set style line 3 lw 1.5 dt (7,5) lc rgb "#404040"'//LF// &
-               'set style line 4 pt 6 lw 1.5 lc rgb "black" ps '//dot//LF// &
-               'set style line 5 pt 7 lw 1.5 lc rgb "black" ps '//dot//LF// &
-               'set style line 6 pt 9 lw 1.5 lc rgb "'//COLOUR(2)//'" ps 1.2*'//dot)
-   end subroutine put_styles
 
    !> The panels: fields of the last frame over those of the ends of steps before it, with their bounds.
    subroutine put_panels(plots, history, shown, pair, law, friction)

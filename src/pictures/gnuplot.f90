@@ -47,11 +47,20 @@ contains
       type(string_t), allocatable, intent(out) :: drawn(:)      !< names of those that have their pictures now
       type(string_t), allocatable :: paths(:)
       integer, allocatable :: of(:)
-      integer :: i, k, exit_code
+      integer :: i, k, exit_code, j, last, l, m
+      character(len=4), allocatable :: endings(:)
 
       allocate (drawn(0))
       if (size(names) == 0) return
-      call list_pictures(folder, names, paths, of)
+      ! The files of some pictures, one picture after the other.
+      allocate (of(0))
+      do l = 1, size(names)
+         endings = picture_endings(names(l)%s)
+         do m = 1, size(endings)
+            call append_string(paths, folder//'/'//names(l)%s//endings(m))
+            of = [of, l]
+         end do
+      end do
       call remove_own_file(folder//'/'//LOG_NAME)
       call note_path(folder//'/'//LOG_NAME)
       do k = 1, size(paths)
@@ -60,7 +69,16 @@ contains
          call note_path(paths(k)%s)
       end do
       call run_command(plot_command(folder, names), SECONDS_OF_PICTURE*real(size(names), wp), exit_code)
-      if (exit_code == TOO_LATE) call remove_unfinished(paths, of)
+      if (exit_code == TOO_LATE) then
+         ! Removes the picture that gnuplot had begun last when it was ended: nobody knows how much of it is there.
+         last = 0
+         do j = 1, size(paths)
+            if (file_exists(paths(j)%s)) last = of(j)
+         end do
+         do j = 1, size(paths)
+            if (of(j) >= last) call remove_own_file(paths(j)%s)
+         end do
+      end if
       do i = 1, size(names)
          if (all([(file_exists(paths(k)%s) .or. of(k) /= i, k=1, size(paths))])) call append_string(drawn, names(i)%s)
       end do
@@ -70,40 +88,6 @@ contains
       call forget_path(folder//'/'//LOG_NAME)
       call judge_outcome(folder, exit_code, size(drawn) == size(names))
    end subroutine draw_pictures
-
-   !> The files of some pictures, one picture after the other.
-   pure subroutine list_pictures(folder, names, paths, of)
-      character(len=*), intent(in) :: folder
-      type(string_t), intent(in) :: names(:)
-      type(string_t), allocatable, intent(out) :: paths(:)
-      integer, allocatable, intent(out) :: of(:)                !< places in names
-      character(len=4), allocatable :: endings(:)
-      integer :: i, k
-
-      allocate (of(0))
-      do i = 1, size(names)
-         endings = picture_endings(names(i)%s)
-         do k = 1, size(endings)
-            call append_string(paths, folder//'/'//names(i)%s//endings(k))
-            of = [of, i]
-         end do
-      end do
-   end subroutine list_pictures
-
-   !> Removes the picture that gnuplot had begun last when it was ended: nobody knows how much of it is there.
-   subroutine remove_unfinished(paths, of)
-      type(string_t), intent(in) :: paths(:)
-      integer, intent(in) :: of(:)
-      integer :: k, last
-
-      last = 0
-      do k = 1, size(paths)
-         if (file_exists(paths(k)%s)) last = of(k)
-      end do
-      do k = 1, size(paths)
-         if (of(k) >= last) call remove_own_file(paths(k)%s)
-      end do
-   end subroutine remove_unfinished
 
    !> The command for the shell. Each script has a gnuplot of its own, so that one that fails does not stop the others; -d: without
    !> the settings that a user may have at home.

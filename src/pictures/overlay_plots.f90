@@ -254,6 +254,8 @@ contains
       integer(ip) :: i, n
       integer :: k, j, next
       logical :: doubt, is_left(size(overlay%runs))
+      real(wp) :: factor
+      type(range_t) :: range
 
       sorted = overlay
       ! The runs with a summary, by growing value, so that lines go from left to right.
@@ -287,7 +289,16 @@ contains
          heading = quoted(overlay%title)
          if (is_one) heading = heading//'."\n".'//quoted(cleaned(pair_line(1_ip, overlay%pairs(1)%name), LONGEST_TITLE))
          call put(plots, 'heading = '//heading)
-         call put_frame(plots, size(shown, kind=ip), parameter_range(runs%value), quoted(overlay%parameter))
+         call cover(range, runs%value)
+         if (is_logarithmic(runs%value)) then
+            factor = (range%high/range%low)**0.03_wp
+            range = range_t(range%low/factor, range%high*factor)
+         else if (is_logarithmic(pack(runs%value, runs%value > 0.0_wp)) .and. range%low >= 0.0_wp) then
+            range = range_t(-0.15_wp*minval(runs%value, mask=runs%value > 0.0_wp), 1.3_wp*range%high)
+         else
+            range = padded(range)
+         end if
+         call put_frame(plots, size(shown, kind=ip), range, quoted(overlay%parameter))
          call put_parameter_axis(plots, runs%value)
          if (is_one .and. .not. doubt) call put(plots, 'right = 0.95')   ! no legend
          call put_terminal(plots, '1000,height')
@@ -351,21 +362,6 @@ contains
          call put(plots, LF)
       end do
    end subroutine write_quantities
-
-   pure type(range_t) function parameter_range(values) result(range)
-      real(wp), intent(in) :: values(:)
-      real(wp) :: factor
-
-      call cover(range, values)
-      if (is_logarithmic(values)) then
-         factor = (range%high/range%low)**0.03_wp
-         range = range_t(range%low/factor, range%high*factor)
-      else if (is_logarithmic(pack(values, values > 0.0_wp)) .and. range%low >= 0.0_wp) then
-         range = range_t(-0.15_wp*minval(values, mask=values > 0.0_wp), 1.3_wp*range%high)
-      else
-         range = padded(range)
-      end if
-   end function parameter_range
 
    !> The column of a quantity in overlay-summary.dat.
    pure integer(ip) function column_of(place)

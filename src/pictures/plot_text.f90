@@ -206,29 +206,25 @@ contains
       integer(ip), intent(in), optional :: n        !< how many, MOST_STYLES at the most; default: N_COLOURS
       character(len=:), allocatable :: text
       integer(ip) :: i, last
+      integer :: parts(3)
+      character(len=7) :: colour_text
 
       last = N_COLOURS
       if (present(n)) last = min(n, MOST_STYLES)
       text = ''
       do i = 1, last
-         text = text//LF//'set style line '//to_text(i)//' lt 1'//looks//' lc rgb "'//colour_of(i)//'"'
+         ! The colour of a style: those of the palette, then they with half of their light, then half way to white.
+         colour_text = COLOUR(mod(i - 1, N_COLOURS) + 1)
+         if (i > N_COLOURS) then
+            read (colour_text(2:), '(3z2)') parts
+            parts = merge(parts/2, (parts + 255)/2, i <= 2*N_COLOURS)
+            if (i == 2*N_COLOURS) parts = 90              ! half of black is black
+            write (colour_text(2:), '(3z2.2)') parts
+         end if
+         text = text//LF//'set style line '//to_text(i)//' lt 1'//looks//' lc rgb "'//colour_text//'"'
       end do
       text = text(2:)
    end function colour_styles
-
-   !> The colour of a style: those of the palette, then they with half of their light, then half way to white.
-   pure function colour_of(i) result(colour_text)
-      integer(ip), intent(in) :: i
-      character(len=7) :: colour_text
-      integer :: parts(3)
-
-      colour_text = COLOUR(mod(i - 1, N_COLOURS) + 1)
-      if (i <= N_COLOURS) return
-      read (colour_text(2:), '(3z2)') parts
-      parts = merge(parts/2, (parts + 255)/2, i <= 2*N_COLOURS)
-      if (i == 2*N_COLOURS) parts = 90              ! half of black is black
-      write (colour_text(2:), '(3z2.2)') parts
-   end function colour_of
 
    !> Range and numbers of a logarithmic axis, for values that may lie within a decade: 1, 2, 5, 10, ..., of many the powers of ten.
    pure function log_axis(axis, range, most) result(text)

@@ -82,12 +82,14 @@ contains
       real(wp) :: inner(MOST_UNKNOWNS, 0:MOST_DEGREE + 2, MOST_PIECES)   ! along the line from a corner to the inner point
       integer(ip) :: i, n
       logical :: fits
+      real(wp) :: s
 
       n = size(corner, 2, kind=ip)
       macro%n = n
       macro%degree = degree
       macro%n_outline = n*(3 + 2*degree - 1)
-      macro%n_unknowns = numbers_of(n, degree)
+      ! Of the outline, and bubbles.
+      macro%n_unknowns = n*(2*degree + 2) + merge(n, 0_ip, degree == 2)
       macro%n_coefficients = N_COEFFICIENTS(degree)
       fits = allocated(macro%stress)
       if (fits) fits = size(macro%stress, 1) == macro%n_unknowns
@@ -98,7 +100,15 @@ contains
       do i = 1, n
          macro%corner(:, i) = corner(:, i) - corner(:, 1)
       end do
-      macro%centre = inner_point(macro%corner(:, :n))
+      ! Where the pieces meet: the centroid, or where the diagonals cross.
+      associate (v => macro%corner(:, :n))
+         if (size(v, 2) == 3) then
+            macro%centre = sum(v, dim=2)/3
+         else
+            s = cross(v(:, 2) - v(:, 1), v(:, 4) - v(:, 2))/cross(v(:, 3) - v(:, 1), v(:, 4) - v(:, 2))
+            macro%centre = v(:, 1) + s*(v(:, 3) - v(:, 1))
+         end if
+      end associate
       do i = 1, n
          macro%area(i) = 0.5_wp*cross(macro%corner(:, after(i, n)) - macro%corner(:, i), macro%centre - macro%corner(:, i))
       end do
@@ -110,14 +120,6 @@ contains
          call differentiate(macro, i, along(:, :, i), next(:, :, i), inner)
       end do
    end subroutine make_macro
-
-   !> Of the outline, and bubbles.
-   pure integer(ip) function numbers_of(n, degree)
-      integer(ip), intent(in) :: n                  !< corners
-      integer(ip), intent(in) :: degree             !< k
-
-      numbers_of = n*(2*degree + 2) + merge(n, 0_ip, degree == 2)
-   end function numbers_of
 
    !> Bernstein coefficients of phi along a side, and the layer beside them, over the numbers of the outline.
    pure subroutine take_side(macro, i, along, next)
@@ -248,19 +250,6 @@ contains
          end do
       end do
    end subroutine differentiate
-
-   !> Where the pieces meet: the centroid, or where the diagonals cross.
-   pure function inner_point(v) result(c)
-      real(wp), intent(in) :: v(:, :)               !< (2, 3 or 4)
-      real(wp) :: c(2), s
-
-      if (size(v, 2) == 3) then
-         c = sum(v, dim=2)/3
-      else
-         s = cross(v(:, 2) - v(:, 1), v(:, 4) - v(:, 2))/cross(v(:, 3) - v(:, 1), v(:, 4) - v(:, 2))
-         c = v(:, 1) + s*(v(:, 3) - v(:, 1))
-      end if
-   end function inner_point
 
    !> The numbers of the outline that tractions along the sides make, (1), with phi and its gradient 0 at the first corner.
    !>

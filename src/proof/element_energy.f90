@@ -84,12 +84,22 @@ contains
       real(wp), intent(in), optional :: given(:, :) !< (x, n_given) columns that x is made of; without it those of x itself
       type(rule_t) :: rule
       real(wp) :: bubbles(MOST_PIECES, MOST_ROWS), origin(2)
-      integer(ip) :: n_x, n_rows
+      integer(ip) :: n_x, n_rows, i, j
+      logical :: fits
 
       call take_form(fem, e, energy%form_t)
       associate (section => fem%sections(energy%section))
          energy%elasticity = section%thickness*elasticity_matrix(section, energy%state)
-         energy%root = root_of(compliance_matrix(section, energy%state)/section%thickness)
+         ! L' of a positive definite matrix L L'.
+         associate (matrix => compliance_matrix(section, energy%state)/section%thickness)
+            energy%root = 0.0_wp
+            do i = 1, COMPONENTS
+               do j = 1, i - 1
+                  energy%root(j, i) = (matrix(j, i) - dot_product(energy%root(:j - 1, j), energy%root(:j - 1, i)))/energy%root(j, j)
+               end do
+               energy%root(i, i) = sqrt(matrix(i, i) - sum(energy%root(:i - 1, i)**2))
+            end do
+         end associate
          energy%heat = section%thickness*section%expansion*thermal_stresses(section, energy%state)
       end associate
       origin = 0.0_wp
@@ -106,7 +116,16 @@ contains
       energy%n = energy%macro%n_outline
       call choose_rule(energy%form_t, degree, allocated(fem%heating), rule)
       n_rows = COMPONENTS*energy%macro%n_coefficients*energy%macro%n
-      call make_room_of(n_rows, energy)
+      ! Room for the rows of this kind of element.
+      energy%n_rows = n_rows + energy%n_given
+      fits = allocated(energy%rows)
+      if (fits) fits = size(energy%rows, 2) == n_rows .and. size(energy%rows, 1) == energy%n + energy%n_given
+      if (.not. fits) then
+         if (allocated(energy%rows)) deallocate (energy%rows, energy%rest, energy%slopes)
+         associate (n => energy%n + energy%n_given)
+            allocate (energy%rows(n, n_rows), energy%slopes(n, n), energy%rest(energy%n_given, energy%n_given))
+         end associate
+      end if
       call add_outline(rule, energy, bubbles(:energy%macro%n_unknowns - energy%n, :n_rows))
       if (present(given)) then
          call add_given(allocated(fem%heating), rule, origin, given, energy)
@@ -172,22 +191,6 @@ contains
          if (triangle(j, j) > 0.0_wp) columns(:, j) = columns(:, j)/triangle(j, j)
       end do
    end subroutine make_orthogonal
-
-   !> Room for the rows of this kind of element.
-   pure subroutine make_room_of(n_rows, energy)
-      integer(ip), intent(in) :: n_rows
-      type(element_energy_t), intent(inout) :: energy
-      logical :: fits
-
-      energy%n_rows = n_rows + energy%n_given
-      fits = allocated(energy%rows)
-      if (fits) fits = size(energy%rows, 2) == n_rows .and. size(energy%rows, 1) == energy%n + energy%n_given
-      if (fits) return
-      if (allocated(energy%rows)) deallocate (energy%rows, energy%rest, energy%slopes)
-      associate (n => energy%n + energy%n_given)
-         allocate (energy%rows(n, n_rows), energy%slopes(n, n), energy%rest(energy%n_given, energy%n_given))
-      end associate
-   end subroutine make_room_of
 
    !> R_a, and the same of the bubbles.
    pure subroutine add_outline(rule, energy, bubbles)
@@ -346,21 +349,6 @@ contains
       product_of = [root(1, 1)*stress(1) + root(1, 2)*stress(2) + root(1, 3)*stress(3), &
                     root(2, 2)*stress(2) + root(2, 3)*stress(3), root(3, 3)*stress(3)]
    end function times_root
-
-   !> L' of a positive definite matrix L L'.
-   pure function root_of(matrix) result(root)
-      real(wp), intent(in) :: matrix(COMPONENTS, COMPONENTS)
-      real(wp) :: root(COMPONENTS, COMPONENTS)
-      integer(ip) :: i, j
-
-      root = 0.0_wp
-      do i = 1, COMPONENTS
-         do j = 1, i - 1
-            root(j, i) = (matrix(j, i) - dot_product(root(:j - 1, j), root(:j - 1, i)))/root(j, j)
-         end do
-         root(i, i) = sqrt(matrix(i, i) - sum(root(:i - 1, i)**2))
-      end do
-   end function root_of
 
    !> R_x x: the rows without the outline.
    pure subroutine given_rows(energy, x, rows)

@@ -351,7 +351,14 @@ contains
                do k = 1, n
                   force(:, k, e) = force(:, k, e) + f(2*k - 1:2*k)
                end do
-               if (allocated(thermal)) call take_heat(e, n)
+               if (allocated(thermal)) then
+                  ! Less the forces of the temperatures of an element.
+                  associate (nodes => fem%mesh%nodes(:n, e))
+                     call add_thermal_of(fem, [e], thermal)
+                     force(:, :n, e) = force(:, :n, e) - thermal(:, nodes)
+                     thermal(:, nodes) = 0.0_wp
+                  end associate
+               end if
                s = 0.0_wp
                do k = 1, n_given
                   s = s + corner(:, k)*x(k)
@@ -360,17 +367,6 @@ contains
             end associate
          end do
       end subroutine take_class
-
-      !> Less the forces of the temperatures of an element.
-      subroutine take_heat(e, n)
-         integer(ip), intent(in) :: e, n
-
-         associate (nodes => fem%mesh%nodes(:n, e))
-            call add_thermal_of(fem, [e], thermal)
-            force(:, :n, e) = force(:, :n, e) - thermal(:, nodes)
-            thermal(:, nodes) = 0.0_wp
-         end associate
-      end subroutine take_heat
 
    end subroutine take_elements
 

@@ -50,67 +50,54 @@ contains
       type(outlines_t), intent(inout) :: outlines
       real(wp), intent(out) :: gain                 !< what the energy has become less by [F L]
       type(star_t) :: star
-      integer(ip) :: i
+      integer(ip) :: i, m, j, s
 
       gain = 0.0_wp
-      call make_room(maxval(chains%first(2:chains%n + 1) - chains%first(:chains%n)), outlines, star)
+      ! Room for the largest star.
+      associate (most => maxval(chains%first(2:chains%n + 1) - chains%first(:chains%n)))
+         m = 3 + 2*(2*outlines%degree - 1)
+         associate (n => 3 + (2*outlines%degree - 1)*(most + 1), numbers => size(outlines%a, 1))
+            allocate (star%class_of(most), star%corner(most), star%is_first(2, most), star%is_held(n), star%place(m, most), &
+                      star%at(m, most), star%sign_of(m, most), star%factor(n, n))
+            allocate (star%h(numbers, numbers, most), star%z(numbers, 3, most), source=0.0_wp)
+            allocate (star%slope(n), star%step(n), star%looks_first(2, most), star%looks_held(n))
+         end associate
+      end associate
       do i = 1, chains%n
          associate (first => chains%first(i), last => chains%first(i + 1) - 1)
             call take_star(mesh, sides, known, chains%element(first:last), chains%corner(first:last), &
                            chains%side(first + i - 1:last + i), outlines, star)
-            if (star%n_free > 0) call improve_star(star, chains%element(first:last), outlines, gain)
+            if (star%n_free > 0) then
+               ! The least energy over the numbers of one star.
+               !
+               ! With y the free numbers of the star, placed into those of its elements by P_e (zeros and signs), the sum of the
+               ! energies is sum_e (a_e + P_e y)'H_e (a_e + P_e y) + 2 g_e'(a_e + P_e y) + c_e. It is least at
+               !
+               !     (sum_e P_e'H_e P_e) y = -sum_e P_e'(H_e a_e + g_e)
+               !
+               ! and is less there by y' times the right-hand side. H_e a_e + g_e (slope) is kept for each element and moved
+               ! with it, so a star costs the product of some small matrices, whatever the mesh. The order of the system is
+               ! 3 + (2k - 1) times the sides that meet at the corner, 15 with k = 2 in a grid of quadrilaterals.
+               associate (element => chains%element(first:last))
+                  star%slope(:star%n_free) = 0.0_wp
+                  do j = 1, size(element, kind=ip)
+                     do s = 1, size(star%at, 1, kind=ip)
+                        associate (k => star%at(s, j), e => outlines%place(element(j)))
+                           if (k > 0) star%slope(k) = star%slope(k) - star%sign_of(s, j)*outlines%slope(star%place(s, j), e)
+                        end associate
+                     end do
+                  end do
+                  star%step(:star%n_free) = star%slope(:star%n_free)
+                  call solve_factored(star%n_free, star%factor, star%step)
+                  gain = gain + dot_product(star%slope(:star%n_free), star%step(:star%n_free))
+                  do j = 1, size(element, kind=ip)
+                     call move_outline(star, j, outlines%place(element(j)), outlines)
+                  end do
+               end associate
+            end if
          end associate
       end do
    end subroutine sweep_stars
-
-   !> Room for the largest star.
-   pure subroutine make_room(most, outlines, star)
-      integer(ip), intent(in) :: most               !< elements
-      type(outlines_t), intent(in) :: outlines
-      type(star_t), intent(inout) :: star
-      integer(ip) :: m
-
-      m = 3 + 2*(2*outlines%degree - 1)
-      associate (n => 3 + (2*outlines%degree - 1)*(most + 1), numbers => size(outlines%a, 1))
-         allocate (star%class_of(most), star%corner(most), star%is_first(2, most), star%is_held(n), star%place(m, most), &
-                   star%at(m, most), star%sign_of(m, most), star%factor(n, n))
-         allocate (star%h(numbers, numbers, most), star%z(numbers, 3, most), source=0.0_wp)
-         allocate (star%slope(n), star%step(n), star%looks_first(2, most), star%looks_held(n))
-      end associate
-   end subroutine make_room
-
-   !> The least energy over the numbers of one star.
-   !>
-   !> With y the free numbers of the star, placed into those of its elements by P_e (zeros and signs), the sum of the energies is
-   !> sum_e (a_e + P_e y)'H_e (a_e + P_e y) + 2 g_e'(a_e + P_e y) + c_e. It is least at
-   !>
-   !>     (sum_e P_e'H_e P_e) y = -sum_e P_e'(H_e a_e + g_e)
-   !>
-   !> and is less there by y' times the right-hand side. H_e a_e + g_e (slope) is kept for each element and moved with it, so a star
-   !> costs the product of some small matrices, whatever the mesh. The order of the system is 3 + (2k - 1) times the sides that meet
-   !> at the corner, 15 with k = 2 in a grid of quadrilaterals.
-   subroutine improve_star(star, element, outlines, gain)
-      type(star_t), intent(inout) :: star
-      integer(ip), intent(in) :: element(:)         !< of a chain
-      type(outlines_t), intent(inout) :: outlines
-      real(wp), intent(inout) :: gain
-      integer(ip) :: j, s
-
-      star%slope(:star%n_free) = 0.0_wp
-      do j = 1, size(element, kind=ip)
-         do s = 1, size(star%at, 1, kind=ip)
-            associate (k => star%at(s, j), e => outlines%place(element(j)))
-               if (k > 0) star%slope(k) = star%slope(k) - star%sign_of(s, j)*outlines%slope(star%place(s, j), e)
-            end associate
-         end do
-      end do
-      star%step(:star%n_free) = star%slope(:star%n_free)
-      call solve_factored(star%n_free, star%factor, star%step)
-      gain = gain + dot_product(star%slope(:star%n_free), star%step(:star%n_free))
-      do j = 1, size(element, kind=ip)
-         call move_outline(star, j, outlines%place(element(j)), outlines)
-      end do
-   end subroutine improve_star
 
    !> The system of a star, if it is not the one that is there.
    subroutine take_star(mesh, sides, known, element, corner, side, outlines, star)

@@ -52,9 +52,20 @@ contains
       type(marks_t) :: marks
       integer(ip), allocatable :: of_node(:)        !< (n_nodes) corner of triangles; 0: none
       logical, allocatable :: is_inside(:)          !< (n_elements) of the strip
-      integer(ip) :: e
+      integer(ip) :: e, i
+      integer(lp) :: key(size(element))
 
-      call sort_marks(fem%mesh%n_elements, element, face, place, marks)
+      ! Places on faces in the order of elements, of their faces, and along these.
+      key = (4_lp*element + face)*(2*PLACES) + nint(place*PLACES, lp)
+      marks%number = sorted_places(key)
+      marks%key = key(marks%number)
+      marks%element = element(marks%number)
+      marks%face = face(marks%number)
+      marks%place = place(marks%number)
+      allocate (marks%first_of(fem%mesh%n_elements), source=0_ip)
+      do i = size(element, kind=ip), 1, -1
+         marks%first_of(marks%element(i)) = i
+      end do
       call choose_elements(fem, element, face, is_inside)
       allocate (of_node(fem%mesh%n_nodes), source=0_ip)
       call make_room(strip%element, 0_ip, 64_ip)
@@ -70,27 +81,6 @@ contains
       end do
       call add_stiffness(fem, strip)
    end subroutine make_strip
-
-   !> Places on faces in the order of elements, of their faces, and along these.
-   pure subroutine sort_marks(n_elements, element, face, place, marks)
-      integer(ip), intent(in) :: n_elements
-      integer(ip), intent(in) :: element(:), face(:) !< (m)
-      real(wp), intent(in) :: place(:)              !< (m) along the face, 0 to 1
-      type(marks_t), intent(out) :: marks
-      integer(lp) :: key(size(element))
-      integer(ip) :: i
-
-      key = (4_lp*element + face)*(2*PLACES) + nint(place*PLACES, lp)
-      marks%number = sorted_places(key)
-      marks%key = key(marks%number)
-      marks%element = element(marks%number)
-      marks%face = face(marks%number)
-      marks%place = place(marks%number)
-      allocate (marks%first_of(n_elements), source=0_ip)
-      do i = size(element, kind=ip), 1, -1
-         marks%first_of(marks%element(i)) = i
-      end do
-   end subroutine sort_marks
 
    !> The triangles of an element: from its middle, and of one with faces of contact those between its outline and a ring within,
    !> too.

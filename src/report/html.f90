@@ -25,41 +25,35 @@ contains
       character(len=10*len(text)) :: room           ! of the longest replacement
       integer :: i, n, last
       character(len=:), allocatable :: piece
+      character(len=*), parameter :: SIGNS = '&<>"'''
+      character(len=6), parameter :: NAMES(len(SIGNS)) = ['&amp; ', '&lt;  ', '&gt;  ', '&quot;', '&#39; ']
+      character(len=3) :: code
 
       last = 0
       i = 1
       do while (i <= len(text))
          n = utf8_length(text(i:))
-         piece = letter_of(text(i:i + max(n, 1) - 1), n > 0)
+         ! One letter, or one byte that is none of UTF-8.
+         associate (bytes => text(i:i + max(n, 1) - 1))
+            piece = bytes
+            if (index(SIGNS, bytes) > 0) then
+               piece = trim(NAMES(index(SIGNS, bytes)))
+            else if (bytes == achar(9)) then
+               piece = ' '
+            else if (n > 0) then
+               if (is_control(bytes)) piece = NO_LETTER
+            else
+               write (code, '(i3)') ichar(bytes)
+               piece = '&#'//code//';'
+               if (ichar(bytes) < 160) piece = NO_LETTER
+            end if
+         end associate
          room(last + 1:last + len(piece)) = piece
          last = last + len(piece)
          i = i + max(n, 1)
       end do
       html = room(:last)
    end function html_text
-
-   !> One letter, or one byte that is none of UTF-8.
-   pure function letter_of(bytes, is_utf8) result(html)
-      character(len=*), intent(in) :: bytes
-      logical, intent(in) :: is_utf8
-      character(len=:), allocatable :: html
-      character(len=*), parameter :: SIGNS = '&<>"'''
-      character(len=6), parameter :: NAMES(len(SIGNS)) = ['&amp; ', '&lt;  ', '&gt;  ', '&quot;', '&#39; ']
-      character(len=3) :: code
-
-      html = bytes
-      if (index(SIGNS, bytes) > 0) then
-         html = trim(NAMES(index(SIGNS, bytes)))
-      else if (bytes == achar(9)) then
-         html = ' '
-      else if (is_utf8) then
-         if (is_control(bytes)) html = NO_LETTER
-      else
-         write (code, '(i3)') ichar(bytes)
-         html = '&#'//code//';'
-         if (ichar(bytes) < 160) html = NO_LETTER
-      end if
-   end function letter_of
 
    !> Control characters, those of UTF-8 with two bytes too, and letters that are for the use of programs alone.
    pure logical function is_control(letter)

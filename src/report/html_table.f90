@@ -53,24 +53,10 @@ contains
       integer(ip), intent(in) :: most_rows          !< that are kept, >= 0
       type(table_top_t), intent(out) :: top         !< whole but for the further rows
       type(status_t), intent(out) :: status         !< STATUS_OK or STATUS_FILE
-      integer :: behind
+      integer :: behind, first, last
       integer(ip) :: shown, all_rows
 
-      call count_rows(text, most_rows, behind, shown, all_rows)
-      call parse_table(text(:behind), name, top%table, status)
-      if (.not. is_ok(status)) return
-      top%n_rows = all_rows - (shown - top%table%n_rows)   ! names in the first row are no row
-      call read_comments(text(:behind), top)
-   end subroutine top_of_text
-
-   !> Lines that are no comments, and where the first of them end.
-   subroutine count_rows(text, most_rows, behind, shown, all_rows)
-      character(len=*), intent(in) :: text
-      integer(ip), intent(in) :: most_rows
-      integer, intent(out) :: behind                !< the last place that belongs to the first rows
-      integer(ip), intent(out) :: shown, all_rows
-      integer :: first, last
-
+      ! Lines that are no comments, and where the first of them end.
       shown = 0
       all_rows = 0
       behind = len(text)
@@ -85,7 +71,11 @@ contains
          end if
          first = last + 1
       end do
-   end subroutine count_rows
+      call parse_table(text(:behind), name, top%table, status)
+      if (.not. is_ok(status)) return
+      top%n_rows = all_rows - (shown - top%table%n_rows)   ! names in the first row are no row
+      call read_comments(text(:behind), top)
+   end subroutine top_of_text
 
    !> Sorts the comments before the first row.
    subroutine read_comments(text, top)

@@ -265,9 +265,10 @@ contains
       type(report_t), intent(in) :: report
       type(page_section_t), allocatable, intent(inout) :: sections(:)
       type(page_section_t) :: section
-      character(len=:), allocatable :: path, text
+      character(len=:), allocatable :: path, text, ends
       type(status_t) :: status
-      integer :: i
+      integer :: i, j, first, last
+      integer(lp) :: n
 
       path = report%deck
       do i = 1, size(report%files)
@@ -277,29 +278,22 @@ contains
       if (.not. is_ok(status)) return
       call begin_section(section, 'Deck')
       call add_note(section%page, path)
-      call add_pre(section%page, shortened(ends_of(text), MOST_LISTED), ' class="deck"')
-      call add_section(sections, section)
-   end subroutine add_deck
-
-   !> A text with some of its first and last lines, where it has many.
-   pure function ends_of(text) result(ends)
-      character(len=*), intent(in) :: text
-      character(len=:), allocatable :: ends
-      integer :: i, first, last
-      integer(lp) :: n
-
+      ! A text with some of its first and last lines, where it has many.
       ends = text
       n = count_symbol(text, achar(10))
-      if (n <= WHOLE_DECK) return
-      first = 0
-      do i = 1, ENDS_OF_DECK(1)
-         first = first + index(text(first + 1:), achar(10))
-      end do
-      last = len(text) + 1
-      do i = 0, ENDS_OF_DECK(2)
-         last = index(text(:last - 1), achar(10), back=.true.)
-      end do
-      ends = text(:first)//'   ... '//to_text(n - sum(ENDS_OF_DECK))//' lines ...'//text(last:)
-   end function ends_of
+      if (n > WHOLE_DECK) then
+         first = 0
+         do j = 1, ENDS_OF_DECK(1)
+            first = first + index(text(first + 1:), achar(10))
+         end do
+         last = len(text) + 1
+         do j = 0, ENDS_OF_DECK(2)
+            last = index(text(:last - 1), achar(10), back=.true.)
+         end do
+         ends = text(:first)//'   ... '//to_text(n - sum(ENDS_OF_DECK))//' lines ...'//text(last:)
+      end if
+      call add_pre(section%page, shortened(ends, MOST_LISTED), ' class="deck"')
+      call add_section(sections, section)
+   end subroutine add_deck
 
 end module atrito_report_sections

@@ -31,6 +31,8 @@ contains
       type(page_t), intent(inout) :: page           !< gets lines of SVG
       type(table_file_t), intent(in) :: iterations  !< iterations.tab
       type(chart_t) :: chart
+      integer :: power, stride, i
+      character(len=:), allocatable :: path, x, y
 
       call collect(iterations, chart)
       if (size(chart%row) < 2) return
@@ -38,8 +40,24 @@ contains
       call add_line(page, '<svg class="chart" viewBox="0 0 720 270" role="img" aria-label="residual over '// &
                     to_text(chart%n_rows)//' linear solves, from '//to_text(10.0_wp**chart%power(1), 2)//' to '// &
                     to_text(10.0_wp**chart%power(size(chart%power)), 2)//'">')
-      call add_axes(page, chart)
-      call add_curves(page, chart)
+      ! A line and a label every few powers of ten, and the ends of the axis below.
+      stride = (chart%high - chart%low)/MOST_MARKS + 1
+      do power = chart%low, chart%high, stride
+         y = place(height(chart, real(power, wp)))
+         call add_line(page, '<path class="grid" d="M'//place(LEFT)//' '//y//'H'//place(RIGHT)//'"/>')
+         call add_line(page, '<text x="62" y="'//y//'" dy="4" text-anchor="end">1e'//to_text(int(power, ip))//'</text>')
+      end do
+      call add_line(page, '<text x="'//place(LEFT)//'" y="240" text-anchor="middle">1</text>')
+      call add_line(page, '<text x="'//place(RIGHT)//'" y="240" text-anchor="middle">'//to_text(chart%n_rows)//'</text>')
+      ! A line an increment, and dots where they are few.
+      path = ''
+      do i = 1, size(chart%row)
+         x = place(LEFT + (RIGHT - LEFT)*real(chart%row(i) - 1, wp)/real(max(1_ip, chart%n_rows - 1), wp))
+         y = place(height(chart, chart%power(i)))
+         path = path//merge('M', 'L', chart%begins(i))//x//' '//y
+         if (size(chart%row) <= MOST_DOTS) call add_line(page, '<circle class="dot" r="3" cx="'//x//'" cy="'//y//'"/>')
+      end do
+      call add_line(page, '<path class="curve" d="'//path//'"/>')
       call add_line(page, '<text x="385" y="262" text-anchor="middle">linear solve</text>')
       call add_line(page, '<text x="16" y="118" text-anchor="middle" transform="rotate(-90 16 118)">residual</text>')
       call add_line(page, '</svg></div>')
@@ -78,40 +96,6 @@ contains
       chart%low = floor(minval(chart%power))
       chart%high = max(chart%low + 1, ceiling(maxval(chart%power)))
    end subroutine collect
-
-   !> A line and a label every few powers of ten, and the ends of the axis below.
-   subroutine add_axes(page, chart)
-      type(page_t), intent(inout) :: page
-      type(chart_t), intent(in) :: chart
-      integer :: power, stride
-      character(len=:), allocatable :: y
-
-      stride = (chart%high - chart%low)/MOST_MARKS + 1
-      do power = chart%low, chart%high, stride
-         y = place(height(chart, real(power, wp)))
-         call add_line(page, '<path class="grid" d="M'//place(LEFT)//' '//y//'H'//place(RIGHT)//'"/>')
-         call add_line(page, '<text x="62" y="'//y//'" dy="4" text-anchor="end">1e'//to_text(int(power, ip))//'</text>')
-      end do
-      call add_line(page, '<text x="'//place(LEFT)//'" y="240" text-anchor="middle">1</text>')
-      call add_line(page, '<text x="'//place(RIGHT)//'" y="240" text-anchor="middle">'//to_text(chart%n_rows)//'</text>')
-   end subroutine add_axes
-
-   !> A line an increment, and dots where they are few.
-   subroutine add_curves(page, chart)
-      type(page_t), intent(inout) :: page
-      type(chart_t), intent(in) :: chart
-      character(len=:), allocatable :: path, x, y
-      integer :: i
-
-      path = ''
-      do i = 1, size(chart%row)
-         x = place(LEFT + (RIGHT - LEFT)*real(chart%row(i) - 1, wp)/real(max(1_ip, chart%n_rows - 1), wp))
-         y = place(height(chart, chart%power(i)))
-         path = path//merge('M', 'L', chart%begins(i))//x//' '//y
-         if (size(chart%row) <= MOST_DOTS) call add_line(page, '<circle class="dot" r="3" cx="'//x//'" cy="'//y//'"/>')
-      end do
-      call add_line(page, '<path class="curve" d="'//path//'"/>')
-   end subroutine add_curves
 
    !> Down from the top.
    pure real(wp) function height(chart, power)

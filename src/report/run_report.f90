@@ -9,7 +9,7 @@ module atrito_run_report
    use atrito_model, only: model_t
    use atrito_page, only: bytes, number, plural
    use atrito_report, only: report_t
-   use atrito_results, only: results_t, history_t, scene_t, balance_t, last_frame
+   use atrito_results, only: results_t, history_t, balance_t, last_frame
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_summary, only: body_count, pair_count, pair_name, error_text, uniqueness_text
    use atrito_system, only: peak_memory
@@ -34,6 +34,8 @@ contains
       type(report_t), intent(out) :: report         !< all but the command
       type(library_t), allocatable :: libraries(:)
       integer(ip) :: i
+      type(phase_time_t), allocatable :: phases(:)
+      character(len=:), allocatable :: points
 
       report%what = 'run'
       report%deck = model%deck_path
@@ -43,7 +45,27 @@ contains
       report%pictures = pictures
       associate (last => history%frames(last_frame(history)))
          call add_verdict(last, ending_text(history), report)
-         call add_facts_of(model, history, last, report%facts)
+         allocate (report%facts(0))
+         if (has_history(model, history)) then
+            call add_fact(report%facts, 'history', plural(size(model%steps, kind=ip), 'step', 'steps')//', '// &
+                          plural(size(list_increments(history), kind=ip), 'increment', 'increments'), &
+                          'below: '//increment_name(last%step, last%increment, last%time))
+         end if
+         call add_fact(report%facts, 'loads, sum along 1 and 2', force_text(last%balance, last%balance%applied(:2)))
+         call add_fact(report%facts, 'support reactions, sum', force_text(last%balance, last%balance%reactions(:2)))
+         if (maxval(abs(last%balance%rigid(:2))) > 0.0_wp) call add_fact(report%facts, 'upon rigid surfaces, sum', &
+                                                                     force_text(last%balance, last%balance%rigid(:2)))
+         points = ''                                ! `, 7 contact points in 1 pair`
+         if (allocated(last%scene%pairs)) then
+            if (size(last%scene%pairs) > 0) points = ', '//plural(sum(last%scene%pairs%n_points), 'contact point', &
+                                                                  'contact points')//' in '// &
+                                                     plural(size(last%scene%pairs, kind=ip), 'pair', 'pairs')
+         end if
+         call add_fact(report%facts, 'model', plural(model%mesh%n_elements, 'element', 'elements')//', '// &
+                       plural(model%mesh%n_nodes, 'node', 'nodes'), plural(body_count(last%scene), 'body', 'bodies')//', '// &
+                       to_text(last%scene%n_dofs)//' free displacements'//points)
+         phases = get_phases()
+         call add_fact(report%facts, 'processor time', to_text(sum(phases%cpu), 3)//' s', bytes(peak_memory())//' of memory')
          report%units = model%units
          allocate (report%pairs(0), report%versions(0))
          do i = 1, pair_count(last)
@@ -84,40 +106,6 @@ contains
                          plural(count_messages(SEVERITY_NOTE), 'note', 'notes')//'.')
    end subroutine add_verdict
 
-   subroutine add_facts_of(model, history, last, facts)
-      type(model_t), intent(in) :: model
-      type(history_t), intent(in) :: history
-      type(results_t), intent(in) :: last
-      type(fact_t), allocatable, intent(inout) :: facts(:)
-      type(phase_time_t), allocatable :: phases(:)
-
-      allocate (facts(0))
-      if (has_history(model, history)) call add_fact(facts, 'history', plural(size(model%steps, kind=ip), 'step', 'steps')//', '// &
-                                                     plural(size(list_increments(history), kind=ip), 'increment', 'increments'), &
-                                                     'below: '//increment_name(last%step, last%increment, last%time))
-      call add_fact(facts, 'loads, sum along 1 and 2', force_text(last%balance, last%balance%applied))
-      call add_fact(facts, 'support reactions, sum', force_text(last%balance, last%balance%reactions))
-      if (maxval(abs(last%balance%rigid)) > 0.0_wp) call add_fact(facts, 'upon rigid surfaces, sum', &
-                                                                  force_text(last%balance, last%balance%rigid))
-      call add_fact(facts, 'model', plural(model%mesh%n_elements, 'element', 'elements')//', '// &
-                    plural(model%mesh%n_nodes, 'node', 'nodes'), plural(body_count(last%scene), 'body', 'bodies')//', '// &
-                    to_text(last%scene%n_dofs)//' free displacements'//points_text(last%scene))
-      phases = get_phases()
-      call add_fact(facts, 'processor time', to_text(sum(phases%cpu), 3)//' s', bytes(peak_memory())//' of memory')
-   end subroutine add_facts_of
-
-   !> `, 7 contact points in 1 pair`
-   pure function points_text(scene) result(text)
-      type(scene_t), intent(in) :: scene
-      character(len=:), allocatable :: text
-
-      text = ''
-      if (.not. allocated(scene%pairs)) return
-      if (size(scene%pairs) == 0) return
-      text = ', '//plural(sum(scene%pairs%n_points), 'contact point', 'contact points')//' in '// &
-             plural(size(scene%pairs, kind=ip), 'pair', 'pairs')
-   end function points_text
-
    !> Both components; what is rounding beside the others is 0.
    pure function force_text(balance, force) result(text)
       type(balance_t), intent(in) :: balance
@@ -126,7 +114,7 @@ contains
       real(wp) :: shown(2), least
       integer :: i
 
-      least = NOTHING*max(maxval(abs(balance%applied)), maxval(abs(balance%reactions)))
+      least = NOTHING*max(maxval(abs(balance%applied(:2))), maxval(abs(balance%reactions(:2))))
       shown = force
       do i = 1, 2
          if (abs_is_below(shown(i), least)) shown(i) = 0.0_wp

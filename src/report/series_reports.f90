@@ -137,12 +137,28 @@ contains
       type(page_t), intent(inout) :: page
       type(string_t), intent(in) :: names(:)
       type(sweep_run_t), intent(in) :: runs(:)
-      type(string_t), allocatable :: titles(:), columns(:), cells(:)
-      integer :: i, k
+      type(string_t), allocatable :: titles(:), columns(:), cells(:), known(:)
+      integer :: i, k, j, l
+      character(len=:), allocatable :: name
+      integer(ip) :: row
 
       titles = names
       call append_string(titles, 'exit')
-      columns = columns_of(runs)
+      ! Quantities that any run has: the first ones, and what the runs were asked to observe.
+      known = quantity_names()
+      allocate (columns(0))
+      do l = 1, size(SHOWN)
+         if (any([(len(amount_text(runs(j), trim(SHOWN(l)))) > 0, j=1, size(runs))])) call append_string(columns, trim(SHOWN(l)))
+      end do
+      do j = 1, size(runs)
+         if (runs(j)%summary%n_rows == 0) cycle
+         do row = last_increment(runs(j)%summary), runs(j)%summary%n_rows
+            name = item_text(runs(j)%summary, find_column(runs(j)%summary, 'quantity'), row)
+            if (.not. any([(known(l)%s == name, l=1, size(known)), (columns(l)%s == name, l=1, size(columns))])) then
+               call append_string(columns, name)
+            end if
+         end do
+      end do
       titles = [titles, columns]
       call append_string(titles, 'folder')
       do i = 1, min(size(runs), MOST_RUNS)
@@ -157,30 +173,6 @@ contains
       call end_rows(page)
       if (size(runs) > MOST_RUNS) call add_note(page, 'The first '//to_text(int(MOST_RUNS, ip))//' runs; all: table runs.')
    end subroutine add_runs
-
-   !> Quantities that any run has: the first ones, and what the runs were asked to observe.
-   function columns_of(runs) result(names)
-      type(sweep_run_t), intent(in) :: runs(:)
-      type(string_t), allocatable :: names(:), known(:)
-      character(len=:), allocatable :: name
-      integer(ip) :: row
-      integer :: i, k
-
-      known = quantity_names()
-      allocate (names(0))
-      do k = 1, size(SHOWN)
-         if (any([(len(amount_text(runs(i), trim(SHOWN(k)))) > 0, i=1, size(runs))])) call append_string(names, trim(SHOWN(k)))
-      end do
-      do i = 1, size(runs)
-         if (runs(i)%summary%n_rows == 0) cycle
-         do row = last_increment(runs(i)%summary), runs(i)%summary%n_rows
-            name = item_text(runs(i)%summary, find_column(runs(i)%summary, 'quantity'), row)
-            if (.not. any([(known(k)%s == name, k=1, size(known))]) .and. .not. any([(names(k)%s == name, k=1, size(names))])) then
-               call append_string(names, name)
-            end if
-         end do
-      end do
-   end function columns_of
 
    !> A quantity of a run; '' where it has none.
    function amount_text(run, name) result(text)

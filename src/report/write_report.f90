@@ -1,95 +1,43 @@
 !> Writes report.html: all that a folder of output tells, on one page that needs nothing else.
 !>
 !> Comes after tables and pictures, which are complete whatever happens here: every failure is a warning, W-REPORT. What has rows
-!> is read from the folder, so that a table or picture that is new appears without a change here.
+!> is read from the folder, so that a table or picture that is new appears without a change here. Pictures are letters within the
+!> page: drawings as SVG where that is small, else PNG; bytes as text of 64 letters (RFC 4648, section 4).
 module atrito_write_report
-   use atrito_files, only: file_set_t, text_file_t, begin_files, open_text, put_line, close_text, end_files
-   use atrito_html, only: add_element, html_text, shortened
+   use atrito_files, only: file_set_t, text_file_t, begin_files, open_text, put_line, close_text, end_files, read_file, &
+                           read_bytes, file_exists
+   use atrito_html, only: add_element, html_text, shortened, add_note
    use atrito_kinds, only: ip
    use atrito_messages, only: add_warning
    use atrito_page, only: page_t, add_line, begin_page
    use atrito_report, only: report_t, page_section_t, begin_section, add_section
-   use atrito_plot_files, only: REPORT_NAME
-   use atrito_report_pictures, only: compose_pictures
+   use atrito_plot_files, only: REPORT_NAME, plot_folder, picture_endings
    use atrito_report_sections, only: contents_t, read_contents, add_numbers, add_results, add_messages, add_sources
    use atrito_status, only: status_t, is_ok
-   use atrito_strings, only: to_text
+   use atrito_strings, only: string_t, to_text, append_string, join
+   use atrito_style_lines, only: take_style_lines
    use atrito_model, only: name_units, units_t
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
    implicit none (type, external)
    private
-   public :: write_report, compose_report, MOST_BYTES
-
-   character(len=1), parameter :: LF = achar(10)
-   !> How a report looks: on all screens, light and dark, then on narrow ones, then on paper.
-   character(len=*), parameter :: STYLE = &
-                       ':root{color-scheme:light dark;--paper:#fff;--ink:#1b222c;--soft:#58626f;--line:#d5dbe3;--panel:#f4f6f9;'// &
-                                  '--good:#0b6847;'//LF// &
-                                  '--good-paper:#e4f4ec;--bad:#9c2408;--bad-paper:#fdebe5;--accent:#0b5cad}'//LF// &
-                         '@media (prefers-color-scheme:dark){:root{--paper:#14181d;--ink:#e4e8ee;--soft:#a0aab8;--line:#38414d;'// &
-                                  '--panel:#1d232b;'//LF// &
-                                  '--good:#6fd3a6;--good-paper:#12301f;--bad:#ff9d80;--bad-paper:#3d1a10;--accent:#7db8f5}}'//LF// &
-                                  '*{box-sizing:border-box}'//LF// &
-       'body{margin:0;background:var(--paper);color:var(--ink);font:16px/1.5 system-ui,"Segoe UI","DejaVu Sans",sans-serif}'//LF// &
-                                  'main{max-width:1080px;margin:0 auto;padding:24px 20px 60px}'//LF// &
-                                  'h1{font-size:1.7rem;line-height:1.25;margin:.1em 0 .2em;overflow-wrap:anywhere}'//LF// &
-                                 'h2{font-size:1.25rem;margin:2em 0 .6em;padding-top:.5em;border-top:2px solid var(--line)}'//LF// &
-                         'h3{font-size:1rem;margin:1.4em 0 .3em}'//LF//'p,li,dd,dt,td,th,figcaption{overflow-wrap:anywhere}'//LF// &
-         'p{margin:.4em 0}'//LF//'ul{padding-left:1.2em}'//LF//'.small,figcaption,.note{color:var(--soft);font-size:.85rem}'//LF// &
-                                  '.kind{color:var(--soft);font-size:.9rem;margin:0}'//LF// &
-                                  '.verdict{border-left:6px solid;border-radius:4px;padding:.7em 1em;margin:1em 0}'//LF// &
-                            '.verdict strong{font-size:1.1rem}'//LF//'.good{color:var(--good);background:var(--good-paper)}'//LF// &
-                                  '.bad{color:var(--bad);background:var(--bad-paper)}'//LF//'.bad strong{font-size:1.3rem}'//LF// &
-          'nav{font-size:.9rem}'//LF//'nav a{color:var(--accent);margin-right:1em;display:inline-block}'//LF//'dl{margin:0}'//LF// &
-               'dd{margin:0}'//LF//'.tiles{display:grid;grid-template-columns:repeat(auto-fill,minmax(190px,1fr));gap:10px}'//LF// &
-                      '.tiles div{background:var(--panel);border:1px solid var(--line);border-radius:6px;padding:.6em .8em}'//LF// &
-                                  '.tiles dt{color:var(--soft);font-size:.85rem}'//LF// &
-                                  '.tiles dd{font-size:1.15rem;font-weight:600;font-variant-numeric:tabular-nums}'//LF// &
-                                  '.tiles dd.small{font-size:.8rem;font-weight:400}'//LF// &
-       '.plain div{display:grid;grid-template-columns:minmax(90px,190px) 1fr;gap:0 1em;border-bottom:1px solid var(--line);'//LF// &
-                                'padding:.25em 0}'//LF//'.plain dt{color:var(--soft)}'//LF//'.plain dd.small{grid-column:2}'//LF// &
-                                  'figure{margin:1em 0 1.6em}'//LF// &
-       'figure img{display:block;max-width:100%;height:auto;background:#fff;border:1px solid var(--line);border-radius:4px}'//LF// &
-                                  'figcaption{margin-top:.4em}'//LF//'.scroll{overflow-x:auto;margin:.4em 0;max-width:100%}'//LF// &
-                                  '.scroll:focus-visible{outline:2px solid var(--accent)}'//LF// &
-                                  'table{border-collapse:collapse;font-size:.84rem;font-variant-numeric:tabular-nums}'//LF// &
-                         'th,td{padding:.18em .7em;text-align:right;white-space:nowrap;border-bottom:1px solid var(--line)}'//LF// &
-               'thead th{border-bottom:2px solid var(--line);vertical-align:bottom;white-space:normal;overflow-wrap:normal}'//LF// &
-                'tbody th{font-weight:500;text-align:left}'//LF//'thead .unit th,td.unit{color:var(--soft);font-weight:400}'//LF// &
-                                  '.word{text-align:left}'//LF// &
-                  'pre{overflow-x:auto;background:var(--panel);border:1px solid var(--line);border-radius:6px;padding:.8em;'//LF// &
-                                  'font:13px/1.4 "DejaVu Sans Mono",Menlo,Consolas,monospace}'//LF// &
-                                  'svg.chart{display:block;min-width:560px;width:100%;max-width:900px;height:auto}'//LF// &
-                        '.chart text{fill:var(--ink);font-size:13px}'//LF//'.chart .grid{stroke:var(--line);stroke-width:1}'//LF// &
-                     '.chart .curve{fill:none;stroke:var(--accent);stroke-width:1.8}'//LF//'.chart .dot{fill:var(--accent)}'//LF// &
-                                  'footer{margin-top:3em;color:var(--soft);font-size:.85rem}'//LF// &
-                                  '@media (max-width:520px){main{padding:14px 12px 40px}h1{font-size:1.35rem}'//LF// &
-                                  '.tiles{grid-template-columns:1fr 1fr;gap:8px}.tiles dd{font-size:1rem}'//LF// &
-                                  '.plain div{grid-template-columns:1fr}.plain dd.small{grid-column:1}'//LF// &
-                                  'th,td{padding:.18em .45em}pre{font-size:11px}figure img{width:620px;max-width:none}}'//LF// &
-                                  '@page{size:A4;margin:14mm 13mm}'//LF// &
-        '@media print{:root{color-scheme:light;--paper:#fff;--ink:#000;--soft:#444;--line:#bbb;--panel:#f6f6f6;--good:#064;'//LF// &
-                                  '--good-paper:#fff;--bad:#900;--bad-paper:#fff;--accent:#0b5cad}'//LF// &
-                     'body{font-size:9pt;line-height:1.3;orphans:1;widows:1}main{max-width:none;padding:0}nav{display:none}'//LF// &
-              'h1{font-size:16pt}h2{font-size:12pt;margin:.8em 0 .3em;padding-top:.3em}h3{font-size:9pt;margin:.6em 0 .2em}'//LF// &
-                                 'h2,h3,h2+.note{break-after:avoid}footer{margin-top:1em}section:has(details){display:none}'//LF// &
-                                  '.verdict{border:1px solid;border-left-width:6px}'//LF// &
-                                  'figure,.whole,.tiles div,.plain div,table,tr,.verdict,svg.chart{break-inside:avoid}'//LF// &
-                             '.pictures{display:grid;grid-template-columns:1fr 1fr;gap:4mm 6mm}figure{margin:0;min-width:0}'//LF// &
-                                  'figure img{width:auto;max-width:100%;max-height:80mm;border:0;margin:0 auto}'//LF// &
-                                  '.whole{display:inline-block;vertical-align:top;width:min-content;margin-right:4mm}'//LF// &
-                         'thead{display:table-header-group}figcaption,.note{font-size:7.5pt}.plain{font-size:8pt;columns:2}'//LF// &
-                                  '.scroll{overflow:visible}table{font-size:6.5pt;line-height:1.15}'//LF// &
-                           'th,td{padding:.1em .4em}table.wide{font-size:6pt}table.wide th,table.wide td{padding:.1em .3em}'//LF// &
-                                  'svg.chart{min-width:0;width:90mm}'//LF// &
-                                  '.tiles{grid-template-columns:repeat(5,1fr);gap:1.5mm}.tiles dd{font-size:10pt}'//LF// &
-                                  '.tiles div{padding:.3em .5em}.tiles dt,.tiles dd.small{font-size:7.5pt}'//LF// &
-                                  '.plain div{grid-template-columns:20mm 1fr}pre.deck{columns:2;font-size:5.7pt}'//LF// &
-                                  'pre{white-space:pre-wrap;font-size:6.2pt;border:0;padding:0;margin:.3em 0}}'
+   public :: write_report, compose_report, MOST_BYTES, compose_pictures, picture_caption, base64_text, base64_length
 
    integer, parameter :: MOST_BYTES = 3000000       !< of the page
    integer, parameter :: MOST_HEADING = 20          !< lines
    integer, parameter :: LONGEST_LINE = 1000
+
+   !> A drawing of more bytes is taken as points, where these are fewer.
+   integer, parameter :: LARGE_DRAWING = 200000
+   integer, parameter :: FRAME_BYTES = 1000         !< what stands round a picture
+
+   !> A picture as it stands in its file.
+   type :: picture_t
+      character(len=:), allocatable :: file         !< name within the folder of plots
+      character(len=:), allocatable :: bytes        !< of the file; not allocated: no room
+   end type picture_t
+
+   character(len=*), parameter :: LETTERS = 'ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/'
+   character(len=1), parameter :: FILLER = '='
 
 contains
 
@@ -192,6 +140,7 @@ contains
       character(len=*), intent(in) :: date
       type(page_t), intent(out) :: page
       character(len=:), allocatable :: title
+      type(string_t), allocatable :: style(:)
       integer :: i, first
 
       call begin_page(page, 80)
@@ -211,7 +160,12 @@ contains
       call add_line(page, '<meta http-equiv="Content-Security-Policy" content="default-src ''none''; img-src data:; '// &
                     'style-src ''unsafe-inline''">')
       call add_element(page, 'title', title)
-      call add_line(page, '<style>'//LF//STYLE//LF//'</style>')
+      call add_line(page, '<style>')
+      call take_style_lines(style)                   ! report.css: on all screens, light and dark, on narrow ones, on paper
+      do i = 1, size(style)
+         call add_line(page, style(i)%s)
+      end do
+      call add_line(page, '</style>')
       call add_line(page, '</head><body><main>')
       call add_element(page, 'p', PROGRAM_NAME//' '//PROGRAM_VERSION//', '//report%what//' of '//file_name(report%deck)// &
                        ', '//date, ' class="kind"')
@@ -255,5 +209,123 @@ contains
          n = n + len(page%lines(i)%s) + 1
       end do
    end function size_of_page
+
+   !> Puts pictures onto a page, in their order, as long as there is room. Those that find none are named.
+   subroutine compose_pictures(folder, names, room, page)
+      character(len=*), intent(in) :: folder        !< of the tables
+      type(string_t), intent(in) :: names(:)        !< of pictures that were drawn, without ending
+      integer, intent(in) :: room                   !< bytes
+      type(page_t), intent(out) :: page             !< pictures as lines of HTML
+      type(string_t), allocatable :: left_out(:)
+      type(picture_t) :: picture
+      integer :: i, free
+      character(len=:), allocatable :: caption, kind
+
+      call begin_page(page, 80)
+      allocate (left_out(0))
+      free = room
+      if (size(names) > 0) call add_line(page, '<div class="pictures">')
+      do i = 1, size(names)
+         call choose_picture(plot_folder(folder), names(i)%s, free, picture)
+         if (allocated(picture%bytes)) then
+            associate (name => names(i)%s)
+               caption = picture_caption(plot_folder(folder), name)
+               kind = picture%file(index(picture%file, '.', back=.true.) + 1:)
+               if (kind == 'svg') kind = 'svg+xml'
+               call add_line(page, '<figure id="'//html_text('picture-'//name)//'">')
+               call add_line(page, '<div class="scroll" tabindex="0" role="region" aria-label="'//html_text('picture '//name)//'">')
+               call add_line(page, '<img alt="'//html_text(name//': '//caption)//'" src="data:image/'//kind//';base64,'// &
+                             base64_text(picture%bytes)//'"></div>')
+               call add_line(page, '<figcaption><strong>'//html_text(name)//'</strong> '//html_text(caption)//'. File: '// &
+                             html_text('plots/'//picture%file)//'</figcaption>')
+               call add_line(page, '</figure>')
+            end associate
+            free = free - base64_length(len(picture%bytes)) - FRAME_BYTES
+         else
+            call append_string(left_out, names(i)%s)
+         end if
+      end do
+      if (size(names) > 0) call add_line(page, '</div>')
+      if (size(left_out) > 0) call add_note(page, 'Left out, for the report would be too large: '//join(left_out, ', ')// &
+                                            '. They are in '//plot_folder(folder)//'.')
+   end subroutine compose_pictures
+
+   !> The file of a picture to be taken; none where no file has room.
+   subroutine choose_picture(folder, name, room, picture)
+      character(len=*), intent(in) :: folder        !< of the plots
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: room
+      type(picture_t), intent(out) :: picture
+      character(len=4), allocatable :: endings(:)
+      character(len=:), allocatable :: bytes
+      type(status_t) :: status
+      integer :: k
+
+      endings = picture_endings(name)
+      do k = 1, size(endings)
+         if (.not. file_exists(folder//'/'//name//endings(k))) cycle
+         call read_bytes(folder//'/'//name//endings(k), bytes, status)
+         if (.not. is_ok(status) .or. len(bytes) == 0) cycle
+         if (base64_length(len(bytes)) + FRAME_BYTES > room) cycle
+         if (allocated(picture%bytes)) then         ! lines are sharp at any size, as long as they are not too many
+            if (len(bytes) >= len(picture%bytes) .and. .not. (endings(k) == '.svg' .and. len(bytes) <= LARGE_DRAWING)) cycle
+         end if
+         picture%file = name//endings(k)
+         call move_alloc(bytes, picture%bytes)
+      end do
+   end subroutine choose_picture
+
+   !> What a picture shows: the first line of its script says it behind the name of the program.
+   function picture_caption(folder, name) result(caption)
+      character(len=*), intent(in) :: folder        !< of the plots
+      character(len=*), intent(in) :: name          !< of the picture, without ending
+      character(len=:), allocatable :: caption, text
+      type(status_t) :: status
+      integer :: ends, colon
+
+      caption = 'a picture'
+      if (.not. file_exists(folder//'/'//name//'.gp')) return
+      call read_file(folder//'/'//name//'.gp', text, status)
+      if (.not. is_ok(status)) return
+      ends = index(text, achar(10)) - 1
+      if (ends < 1) return
+      colon = index(text(:ends), ': ')
+      if (text(1:1) == '#' .and. colon > 0) caption = text(colon + 2:ends)
+   end function picture_caption
+
+   !> Letters that so many bytes need.
+   pure integer function base64_length(n_bytes) result(n)
+      integer, intent(in) :: n_bytes !< >= 0
+
+      n = 4*((n_bytes + 2)/3)
+   end function base64_length
+
+   !> Three bytes in four letters; what the last three lack is filled.
+   pure function base64_text(bytes) result(text)
+      character(len=*), intent(in) :: bytes         !< any bytes, one a character
+      character(len=:), allocatable :: text
+      integer :: i, k, word, there
+
+      allocate (character(len=base64_length(len(bytes))) :: text)
+      k = 0
+      do i = 1, len(bytes), 3
+         there = min(3, len(bytes) - i + 1)
+         word = 65536*ichar(bytes(i:i))
+         if (there > 1) word = word + 256*ichar(bytes(i + 1:i + 1))
+         if (there > 2) word = word + ichar(bytes(i + 2:i + 2))
+         text(k + 1:k + 4) = letter(word/262144)//letter(word/4096)//letter(word/64)//letter(word)
+         if (there < 3) text(k + there + 2:k + 4) = repeat(FILLER, 3 - there)
+         k = k + 4
+      end do
+   end function base64_text
+
+   !> The letter of the last six bits.
+   pure character(len=1) function letter(word)
+      integer, intent(in) :: word
+      integer :: i
+
+      i = iand(word, 63) + 1
+      letter = LETTERS(i:i)
+   end function letter
 
 end module atrito_write_report

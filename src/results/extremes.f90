@@ -36,6 +36,7 @@ contains
       type(largest_t) :: largest
       integer(ip) :: k, i, j
       real(wp) :: slack
+      integer :: l, n
 
       do k = 1, mesh%n_nodes
          if (body_of_node(k) == 0) cycle
@@ -59,26 +60,17 @@ contains
             end do
          end associate
       end do
-      call list_extremes(mesh, largest, results%extremes)
-   end subroutine find_extremes
-
-   !> Those that there are, as results have them.
-   pure subroutine list_extremes(mesh, largest, list)
-      type(mesh_t), intent(in) :: mesh
-      type(largest_t), intent(in) :: largest
-      type(extreme_t), allocatable, intent(inout) :: list(:)
-      integer :: i, n
-
-      if (allocated(list)) deallocate (list)
-      allocate (list(count(largest%node > 0)))
+      ! Those that there are, as results have them.
+      if (allocated(results%extremes)) deallocate (results%extremes)
+      allocate (results%extremes(count(largest%node > 0)))
       n = 0
-      do i = 1, size(EXTREME_NAMES)
-         if (largest%node(i) == 0) cycle
+      do l = 1, size(EXTREME_NAMES)
+         if (largest%node(l) == 0) cycle
          n = n + 1
-         list(n) = extreme_t(largest%value(i), mesh%node_id(largest%node(i)), largest%x(:, i), .true., EXTREME_NAMES(i))
-         if (IS_LEAST(i)) list(n)%value = -list(n)%value
+         results%extremes(n) = extreme_t(largest%value(l), mesh%node_id(largest%node(l)), largest%x(:, l), .true., EXTREME_NAMES(l))
+         if (IS_LEAST(l)) results%extremes(n)%value = -results%extremes(n)%value
       end do
-   end subroutine list_extremes
+   end subroutine find_extremes
 
    !> Mises' stress and the principal stresses of a node. Those in the plane are the ends of Mohr's circle,
    !>

@@ -257,7 +257,7 @@ contains
    !>
    !> With p, t, gap g and slip u_T as the results have them, tau = nu S_rho(p) of these p, and s the slip beyond the rest slip:
    !>
-   !>     places      g and u_T are those of the displacements                                     judge_place
+   !>     places      g and u_T are those of the displacements
    !>     normal      p >= 0;  g + delta p = 0 where p > 0;  g >= 0 where p = 0                    judge_normal
    !>     friction    |t| <= tau;  t = tau sign(s) where |s| is beyond what sticking lets;
    !>                 else t is what the law gives for s                                           judge_friction
@@ -276,7 +276,7 @@ contains
       real(wp), intent(in), optional :: condition !< of the equations of the contact line
       real(wp), intent(in), optional :: round_off(:) !< (unknowns) of gaps and slips, where the solver knows it [L]
       real(wp), allocatable :: uncertain(:)
-      real(wp) :: p(line%n), gap(line%n), slip(line%n), t(line%n), tau(line%n), far
+      real(wp) :: p(line%n), gap(line%n), slip(line%n), t(line%n), tau(line%n), far, place, off
       type(contact_scales_t) :: scales
       integer(ip) :: j, k, last
       logical :: rows_hold
@@ -308,8 +308,21 @@ contains
             scales%friction = maxval(tau(j:last))
          end if
          wrong = ''
-         call judge_place(rows, results, j, gap(j), slip(j), scales, line%tangential(j) > 0, wrong)
-         call judge_normal(p(j), gap(j), line%delta(j), scales%gap + known_within(rows, j), wrong)
+         ! Gap and slip must be those of the displacement field.
+         off = abs(rows%gap(j) - row_value(rows, j, rows%normal(:, j), results%u) - gap(j))
+         if (off > scales%gap) wrong = 'the gap is not that of the displacements, off by '//to_text(off, 3)//', ' &
+                                       //to_text(scales%gap, 3)//' allowed'
+         if (line%tangential(j) > 0) then
+            off = abs(row_value(rows, j, rows%tangent(:, j), results%u) - slip(j))
+            if (off > scales%slip) wrong = 'the slip is not that of the displacements, off by '//to_text(off, 3)//', ' &
+                                           //to_text(scales%slip, 3)//' allowed'
+         end if
+         ! To what the overlap of a point whose support takes its force is known [L].
+         place = 0.0_wp
+         if (allocated(rows%is_held)) then
+            if (rows%is_held(1, j)) place = rows%doubt(j)*rows%reach(j)
+         end if
+         call judge_normal(p(j), gap(j), line%delta(j), scales%gap + place, wrong)
          call judge_friction(line, j, t(j), tau(j), slip(j) - rest_of(line, j), scales, tolerance, wrong)
          if (len(wrong) == 0) cycle
          results%law_holds = .false.
@@ -417,37 +430,6 @@ contains
          k = k - results%contact(i)%n
       end do
    end function point_x
-
-   !> To what the overlap of a point whose support takes its force is known [L].
-   pure real(wp) function known_within(rows, j) result(place)
-      type(contact_rows_t), intent(in) :: rows
-      integer(ip), intent(in) :: j
-
-      place = 0.0_wp
-      if (allocated(rows%is_held)) then
-         if (rows%is_held(1, j)) place = rows%doubt(j)*rows%reach(j)
-      end if
-   end function known_within
-
-   !> Gap and slip must be those of the displacement field.
-   pure subroutine judge_place(rows, results, j, gap, slip, scales, has_tangential, wrong)
-      type(contact_rows_t), intent(in) :: rows
-      type(results_t), intent(in) :: results
-      integer(ip), intent(in) :: j
-      real(wp), intent(in) :: gap, slip
-      type(contact_scales_t), intent(in) :: scales
-      logical, intent(in) :: has_tangential
-      character(len=:), allocatable, intent(inout) :: wrong
-      real(wp) :: off
-
-      off = abs(rows%gap(j) - row_value(rows, j, rows%normal(:, j), results%u) - gap)
-      if (off > scales%gap) wrong = 'the gap is not that of the displacements, off by '//to_text(off, 3)//', ' &
-                                    //to_text(scales%gap, 3)//' allowed'
-      if (.not. has_tangential) return
-      off = abs(row_value(rows, j, rows%tangent(:, j), results%u) - slip)
-      if (off > scales%slip) wrong = 'the slip is not that of the displacements, off by '//to_text(off, 3)//', ' &
-                                     //to_text(scales%slip, 3)//' allowed'
-   end subroutine judge_place
 
    !> Signorini with a penalty: p >= 0, and gap + delta p = 0 where p > 0, gap >= 0 where p = 0.
    pure subroutine judge_normal(p, gap, delta, place, wrong)

@@ -42,13 +42,23 @@ contains
       type(results_t), intent(in) :: results      !< of an increment that was solved
       type(force_sense_t), intent(inout) :: sense !< keeps the worst of all increments so far
       real(wp) :: force, times, off, moment
-      integer(ip) :: i, first
+      integer(ip) :: i, j, first
 
       if (size(data%points) == 0) return
       sense%asked = max(sense%asked, asked_for(data))
       first = 0
       do i = 1, size(data%points, kind=ip)
-         call watch_held_points(data, i, first, results%contact(i), sense)
+         associate (contact => results%contact(i))
+            do j = 1, contact%n                     ! at nodes that are held almost along their normals
+               force = contact%weight(j)*contact%pressure(j)
+               if (force <= max(HELD_WEDGE*sense%asked, sense%held_force)) cycle
+               if (free_share(data%rows, first + j, data%held) > HELD) cycle
+               sense%held_pair = i
+               sense%held_point = j
+               sense%held_force = force
+               sense%held_beside = sense%asked
+            end do
+         end associate
          first = first + data%points(i)%n
          force = pair_force(results%contact(i))
          if (force > WEDGE*sense%asked) then
@@ -69,27 +79,6 @@ contains
          sense%moment = moment
       end do
    end subroutine watch_forces
-
-   !> Points at nodes that are held almost along their normals.
-   pure subroutine watch_held_points(data, i, before, contact, sense)
-      type(scene_data_t), intent(in) :: data
-      integer(ip), intent(in) :: i               !< the pair
-      integer(ip), intent(in) :: before          !< rows of the pairs before
-      type(contact_result_t), intent(in) :: contact
-      type(force_sense_t), intent(inout) :: sense
-      real(wp) :: force
-      integer(ip) :: j
-
-      do j = 1, contact%n
-         force = contact%weight(j)*contact%pressure(j)
-         if (force <= max(HELD_WEDGE*sense%asked, sense%held_force)) cycle
-         if (free_share(data%rows, before + j, data%held) > HELD) cycle
-         sense%held_pair = i
-         sense%held_point = j
-         sense%held_force = force
-         sense%held_beside = sense%asked
-      end do
-   end subroutine watch_held_points
 
    !> What is left of the row of a point at the dofs that are free, as a part of it.
    pure real(wp) function free_share(rows, j, held) result(share)
@@ -115,41 +104,24 @@ contains
    real(wp) function asked_for(data) result(force)
       type(scene_data_t), intent(in) :: data
       real(wp) :: moved, depth
+      integer(ip) :: i
 
       force = sum(hypot(data%f(1, :), data%f(2, :)))
       if (allocated(data%thermal)) force = force + sum(hypot(data%thermal(1, :), data%thermal(2, :)))
       moved = max(maxval(abs(data%value), mask=data%held), -minval(data%rows%gap), 0.0_wp)
       if (data%rows%n_bilateral > 0) moved = max(moved, maxval(abs(data%rows%gap(data%rows%n - data%rows%n_bilateral + 1:))))
-      if (data%rigid_prescribed%n > 0) moved = max(moved, largest_motion(data))
-      if (.not. moved > 0.0_wp) return
-      depth = maxval(data%fem%sections%thickness)
-      if (data%rows%n > 0) depth = max(depth, depth_of(data%points))
-      force = force + maxval(data%model%materials%young)*depth*moved*real(data%rows%n + count(data%held), wp)
-   end function asked_for
-
-   !> Displacements of rigid surfaces, with what their rotations make of their size.
-   pure real(wp) function largest_motion(data) result(moved)
-      type(scene_data_t), intent(in) :: data
-      integer(ip) :: i
-
-      moved = 0.0_wp
-      do i = 1, data%rigid_prescribed%n
+      do i = 1, data%rigid_prescribed%n             ! with what rotations make of the size of the surface
          associate (dof => data%rigid_prescribed%dof(i), value => abs(data%rigid_prescribed%value(i)))
             moved = max(moved, value*merge(1.0_wp, maxval(data%model%rigid_bodies%size), dof <= 2))
          end associate
       end do
-   end function largest_motion
-
-   !> The depth of the scene at the points: thickness, or the way round the axis [L].
-   pure real(wp) function depth_of(points) result(depth)
-      type(contact_points_t), intent(in) :: points(:)
-      integer(ip) :: i
-
-      depth = 0.0_wp
-      do i = 1, size(points, kind=ip)
-         if (points(i)%n > 0) depth = max(depth, maxval(points(i)%weight/points(i)%length))
+      if (.not. moved > 0.0_wp) return
+      depth = maxval(data%fem%sections%thickness)
+      do i = 1, size(data%points, kind=ip)          ! or the way round the axis
+         if (data%points(i)%n > 0) depth = max(depth, maxval(data%points(i)%weight/data%points(i)%length))
       end do
-   end function depth_of
+      force = force + maxval(data%model%materials%young)*depth*moved*real(data%rows%n + count(data%held), wp)
+   end function asked_for
 
    !> The sum of the sizes of a pair's forces [F].
    pure real(wp) function pair_force(contact) result(force)

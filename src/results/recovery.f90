@@ -57,7 +57,9 @@ contains
                c%shear(j) = -solution%t(k)
                call place_of_point(line, rows, solution, u, k, c%gap(j), c%slip(j))
                c%gap(j) = true_gap(rows, k, c%gap(j))
-               c%status(j) = status_of(line, solution, k, c%pressure(j))
+               c%status(j) = POINT_SLIP
+               if (line%law(k)%kind /= FRICTION_NONE .and. .not. is_full(solution%t(k), solution%tau(k))) c%status(j) = POINT_STICK
+               if (c%pressure(j) <= 0.0_wp) c%status(j) = POINT_OPEN
             end do
             c%s_end = 0.0_wp
             if (c%n > 0) c%s_end = maxval(c%s)
@@ -116,20 +118,6 @@ contains
       takes_displacements = solution%has_settled .or. solution%form == CONTACT_SPARSE
    end function takes_displacements
 
-   !> Open without pressure; sticking where there is friction that is below its bound.
-   pure integer(ip) function status_of(line, solution, j, pressure) result(status)
-      type(contact_line_t), intent(in) :: line
-      type(contact_solution_t), intent(in) :: solution
-      integer(ip), intent(in) :: j
-      real(wp), intent(in) :: pressure
-
-      status = POINT_OPEN
-      if (pressure <= 0.0_wp) return
-      status = POINT_SLIP
-      if (line%law(j)%kind == FRICTION_NONE) return
-      if (.not. is_full(solution%t(j), solution%tau(j))) status = POINT_STICK
-   end function status_of
-
    !> Stresses at the Gauss points of the requested elements.
    subroutine recover_stress(requests, fem, results)
       type(requests_t), intent(in) :: requests       !< which elements, if any
@@ -137,8 +125,8 @@ contains
       type(results_t), intent(inout) :: results      !< with u; gets stress_* where stresses are asked for
       type(point_rule_t) :: rules(MOST_NODES, 2)     !< of full and of reduced integration
       logical, allocatable :: wanted(:)
-      integer(ip) :: rows(chunk_count(fem%mesh%n_elements) + 1) !< filled before each chunk of elements
-      integer(ip) :: chunk
+      integer(ip) :: rows(chunk_count(fem%mesh%n_elements) + 1) !< filled before each chunk of elements; all
+      integer(ip) :: chunk, e, first, last
 
       if (.not. (requests%stress .or. requests%fields%stress)) return
       allocate (wanted(fem%mesh%n_elements), source=.false.)
@@ -146,7 +134,14 @@ contains
       if (requests%fields%stress) wanted = wanted .or. requests%fields%element_s
       call make_point_rules(POINTS_OF, rules(:, 1))
       if (any(IS_REDUCED(fem%mesh%state))) call make_point_rules(BEST_OF, rules(:, 2))
-      call count_rows(fem, wanted, rows)
+      rows(1) = 0
+      do chunk = 1, size(rows, kind=ip) - 1
+         call find_chunk(chunk, fem%mesh%n_elements, first, last)
+         rows(chunk + 1) = rows(chunk)
+         do e = first, last
+            if (wanted(e)) rows(chunk + 1) = rows(chunk + 1) + POINT_COUNT(fem%mesh%shape(e), fem%mesh%state(e))
+         end do
+      end do
       associate (n => rows(size(rows)))
          allocate (results%stress_element(n), results%stress_point(n), results%stress_x(2, n), &
                    results%stress(size(STRESS_NAMES), n))
@@ -158,22 +153,6 @@ contains
       !$omp end parallel do
       if (allocated(fem%heating)) call add_thermal_33(fem, rules, results)
    end subroutine recover_stress
-
-   pure subroutine count_rows(fem, wanted, rows)
-      type(fem_t), intent(in) :: fem
-      logical, intent(in) :: wanted(:)
-      integer(ip), intent(out) :: rows(:)            !< (chunks + 1) before each chunk; all
-      integer(ip) :: chunk, e, first, last
-
-      rows(1) = 0
-      do chunk = 1, size(rows, kind=ip) - 1
-         call find_chunk(chunk, fem%mesh%n_elements, first, last)
-         rows(chunk + 1) = rows(chunk)
-         do e = first, last
-            if (wanted(e)) rows(chunk + 1) = rows(chunk + 1) + POINT_COUNT(fem%mesh%shape(e), fem%mesh%state(e))
-         end do
-      end do
-   end subroutine count_rows
 
    !> The rows of one chunk of elements.
    pure subroutine add_stresses(fem, chunk, wanted, rules, filled, results)

@@ -19,7 +19,8 @@ contains
       type(scene_data_t), intent(in) :: data           !< rigid bodies of its model, supports and loads
       type(contact_solution_t), intent(in) :: solution !< amplitudes a of the rigid motions
       type(results_t), intent(inout) :: results        !< with the carriers' u, reactions; without them then
-      integer(ip) :: i
+      integer(ip) :: i, j
+      logical :: has_fixed_surfaces
 
       if (.not. has_moving_surfaces(data%model) .or. .not. allocated(results%u)) return
       if (allocated(results%rigid)) deallocate (results%rigid)
@@ -33,7 +34,13 @@ contains
          end associate
       end do
       ! nothing but round-off goes to the ground where all rigid surfaces of pairs move
-      if (.not. has_fixed_surfaces(data)) results%balance%rigid = 0.0_wp
+      ! Whether the master of a pair is a rigid surface that stays where it is.
+      has_fixed_surfaces = .false.
+      do j = 1, size(data%points, kind=ip)
+         has_fixed_surfaces = has_fixed_surfaces .or. (data%points(j)%rigid .and. .not. any(data%model%rigid_bodies%surface &
+                                                                                            == data%model%pairs(j)%master))
+      end do
+      if (.not. has_fixed_surfaces) results%balance%rigid(:2) = 0.0_wp
       call leave_mesh_alone(data, results)
    end subroutine take_rigid_results
 
@@ -61,17 +68,6 @@ contains
          end do
       end if
    end subroutine leave_mesh_alone
-
-   !> Whether the master of a pair is a rigid surface that stays where it is.
-   pure logical function has_fixed_surfaces(data) result(has)
-      type(scene_data_t), intent(in) :: data
-      integer(ip) :: i
-
-      has = .false.
-      do i = 1, size(data%points, kind=ip)
-         has = has .or. (data%points(i)%rigid .and. .not. any(data%model%rigid_bodies%surface == data%model%pairs(i)%master))
-      end do
-   end function has_fixed_surfaces
 
    !> The prescribed motion and the free one; the forces that hold the nodes that carry it, as one force and one moment.
    subroutine take_body(data, i, a, results, body)

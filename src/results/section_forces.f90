@@ -64,7 +64,8 @@ contains
       type(cut_t), intent(in) :: cut
       type(cut_force_t), intent(out) :: row
       type(resultant_t) :: sum
-      integer(ip) :: i
+      integer(ip), allocatable :: place(:)                  ! in split, of each element
+      integer(ip) :: i, k
 
       associate (section => cut%section, x => data%model%mesh%x)
          sum%about = section%middle
@@ -72,7 +73,16 @@ contains
          do i = 1, size(section%node, kind=ip)
             call add_force(sum, x(:, section%node(i)), section%share(i)*own(:, section%node(i)))
          end do
-         call add_loads_between(data, loads, section, sum)
+         ! Loads on the parts of elements that the line cuts off, and on faces along the line.
+         allocate (place(data%model%mesh%n_elements), source=0_ip)
+         place(section%split) = [(i, i=1, size(section%split, kind=ip))]
+         do i = 1, loads%n
+            k = place(loads%element(i))
+            if (k == 0) cycle
+            call add_part_of_load(data%model, loads, i, section%line, section%is_behind(k), &
+                                  merge(1.0_wp, -1.0_wp, section%is_behind(k)), sum)
+         end do
+         if (section%edge%n > 0) call add_loads_on_edge(data, loads, section, sum)
          if (is_revolved(data%model%mesh)) call add_hoop_between(data, u, section, sum)
          row%name = cut%name
          row%middle = section%middle
@@ -134,26 +144,6 @@ contains
          end associate
       end do
    end subroutine add_internal
-
-   !> Loads on the parts of elements that the line cuts off, and on faces along the line.
-   subroutine add_loads_between(data, loads, section, sum)
-      type(scene_data_t), intent(in) :: data
-      type(element_load_t), intent(in) :: loads
-      type(cross_section_t), intent(in) :: section
-      type(resultant_t), intent(inout) :: sum
-      integer(ip), allocatable :: place(:)                  ! in split, of each element
-      integer(ip) :: i, k
-
-      allocate (place(data%model%mesh%n_elements), source=0_ip)
-      place(section%split) = [(i, i=1, size(section%split, kind=ip))]
-      do i = 1, loads%n
-         k = place(loads%element(i))
-         if (k == 0) cycle
-         call add_part_of_load(data%model, loads, i, section%line, section%is_behind(k), &
-                               merge(1.0_wp, -1.0_wp, section%is_behind(k)), sum)
-      end do
-      if (section%edge%n > 0) call add_loads_on_edge(data, loads, section, sum)
-   end subroutine add_loads_between
 
    subroutine add_loads_on_edge(data, loads, section, sum)
       type(scene_data_t), intent(in) :: data

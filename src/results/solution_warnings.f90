@@ -1,9 +1,11 @@
-!> What a careful user should know of a solution, told as warnings and notes.
+!> What a careful user should know of a solution, told as warnings and notes; and which points keep a run from converging: those
+!> whose state changed in the last outer iteration, or more than once in the last ones; where there is none, the one whose friction
+!> bound is off most.
 module atrito_solution_warnings
    use atrito_blas_info, only: is_reference_blas
    use atrito_body_motions, only: find_moved_body, motion_text
    use atrito_condensed_body, only: hourglass_text
-   use atrito_contact_line, only: contact_line_t, last_of_pair
+   use atrito_contact_line, only: contact_line_t, last_of_pair, friction_bound
    use atrito_contact_rows, only: contact_rows_t
    use atrito_contact_solution, only: contact_solution_t
    use atrito_friction_law, only: FRICTION_NONE
@@ -13,18 +15,20 @@ module atrito_solution_warnings
    use atrito_mesh, only: mesh_t
    use atrito_messages, only: add_note, add_warning
    use atrito_model, only: model_t
-   use atrito_results, only: results_t
+   use atrito_points, only: contact_points_t
+   use atrito_results, only: results_t, unsettled_t
    use atrito_scene_data, only: scene_data_t
+   use atrito_solve_history, only: state_letters
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: warn, idle_text
+   public :: warn, idle_text, report_unsettled
 
    real(wp), parameter :: MANY_DIGITS = 10.0_wp             !< lost digits worth a warning
    real(wp), parameter :: MUCH_LOST = 1.0e8_wp              !< condition of the contact line worth a warning
    real(wp), parameter :: UNKNOWN_PART = 1.0e-3_wp          !< of the largest pressure of a pair, worth a warning
    real(wp), parameter :: LARGE_FRICTION = 3.0_wp           !< from here on other solutions have been seen
-   integer(ip), parameter :: MOST_NAMED = 5                 !< nodes in a note
+   integer(ip), parameter :: MOST_NAMED = 5                 !< nodes in a note or a verdict
    real(wp), parameter :: LARGE_HOURGLASS = 1.0_wp          !< as much strain energy as is seen is not
 
 contains
@@ -176,7 +180,8 @@ contains
       type(contact_line_t), intent(in) :: line
       type(contact_solution_t), intent(in) :: solution
       logical :: is_shared(line%n)
-      integer(ip), allocatable :: nodes(:)
+      integer(ip), allocatable :: nodes(:), once(:)
+      character(len=:), allocatable :: text
       integer(ip) :: j
 
       if (.not. allocated(solution%is_shared)) return
@@ -187,38 +192,83 @@ contains
       end do
       nodes = mesh%node_id(rows%node(rows%first(pack([(j, j=1, line%n)], is_shared))))
       if (size(nodes) == 0) return
-      call add_note('N-SHARED', shared_text(merge('points and joints', 'contact points   ', line%n_bilateral > 0), &
-                                            size(nodes, kind=ip), each_once(nodes)) &
-                    //'; displacements and sums of the forces are, and of the forces the least are given')
+      once = nodes(:0)                               ! two pairs may have their point at one node
+      do j = 1, size(nodes, kind=ip)
+         if (size(once) <= MOST_NAMED .and. .not. any(once == nodes(j))) once = [once, nodes(j)]
+      end do
+      text = trim(merge('points and joints', 'contact points   ', line%n_bilateral > 0))//' share what they ask, so that the '// &
+             'force of '//to_text(size(nodes, kind=ip))//trim(merge(' points', ' point ', size(nodes) > 1))//' is not unique: '// &
+             trim(merge('nodes', 'node ', size(once) > 1))//' '//to_text(once(1))
+      do j = 2, min(size(once, kind=ip), MOST_NAMED)
+         text = text//', '//to_text(once(j))
+      end do
+      if (size(once) > MOST_NAMED) text = text//', ...'
+      call add_note('N-SHARED', text//'; displacements and sums of the forces are, and of the forces the least are given')
    end subroutine note_shared_points
 
-   !> Without those that were there before: two pairs may have their point at one node.
-   pure function each_once(nodes) result(once)
-      integer(ip), intent(in) :: nodes(:)
-      integer(ip), allocatable :: once(:)
-      integer(ip) :: i
-
-      once = nodes(:0)
-      do i = 1, size(nodes, kind=ip)
-         if (.not. any(once == nodes(i))) once = [once, nodes(i)]
-         if (size(once) > MOST_NAMED) return
-      end do
-   end function each_once
-
-   function shared_text(things, n, nodes) result(text)
-      character(len=*), intent(in) :: things
-      integer(ip), intent(in) :: n                   !< points
-      integer(ip), intent(in) :: nodes(:)            !< the first ones and one more
+   !> Fills results%unsettled, the most restless points first, and adds to the verdict of a run that did not converge.
+   subroutine report_unsettled(mesh, points, rows, line, solution, results)
+      type(mesh_t), intent(in) :: mesh                 !< as solved
+      type(contact_points_t), intent(in) :: points(:)  !< of each pair
+      type(contact_rows_t), intent(in) :: rows         !< nodes and normals of the points
+      type(contact_line_t), intent(in) :: line         !< which point each unknown is of
+      type(contact_solution_t), intent(in) :: solution !< its last states are read
+      type(results_t), intent(inout) :: results        !< get unsettled, and more in the verdict
+      integer(ip), allocatable :: order(:)
+      integer(ip) :: i, j
       character(len=:), allocatable :: text
-      integer(ip) :: i
 
-      text = trim(things)//' share what they ask, so that the force of '//to_text(n) &
-             //trim(merge(' points', ' point ', n > 1))//' is not unique: '// &
-             trim(merge('nodes', 'node ', size(nodes) > 1))//' '//to_text(nodes(1))
-      do i = 2, min(size(nodes, kind=ip), MOST_NAMED)
-         text = text//', '//to_text(nodes(i))
+      if (solution%converged .or. .not. allocated(solution%history%states)) return
+      order = restless_points(solution%history%states(:, :solution%history%kept))
+      allocate (results%unsettled(size(order)))
+      do i = 1, size(order, kind=ip)
+         associate (j => line%point(order(i)), point => results%unsettled(i))
+            point%pair = 1
+            point%point = j
+            do while (point%point > points(point%pair)%n)
+               point%point = point%point - points(point%pair)%n
+               point%pair = point%pair + 1
+            end do
+            point%node = mesh%node_id(rows%node(rows%first(j)))
+            point%x = points(point%pair)%x(:, point%point)
+         end associate
+         results%unsettled(i)%states = state_letters(solution%history%states(order(i), :solution%history%kept))
       end do
-      if (size(nodes) > MOST_NAMED) text = text//', ...'
-   end function shared_text
+      if (.not. allocated(results%verdict)) results%verdict = 'not converged'
+      if (size(order) > 0) then
+         if (size(results%unsettled) == 1) then
+            text = '1 point is unsettled: node '//to_text(results%unsettled(1)%node)
+         else
+            text = to_text(size(results%unsettled, kind=ip))//' points are unsettled: nodes '//to_text(results%unsettled(1)%node)
+            do j = 2, min(size(results%unsettled, kind=ip), MOST_NAMED)
+               text = text//', '//to_text(results%unsettled(j)%node)
+            end do
+            if (size(results%unsettled) > MOST_NAMED) text = text//', ...'
+         end if
+         results%verdict = results%verdict//'; '//text
+      else if (line%has_friction .and. allocated(solution%p)) then
+         i = maxloc(abs(friction_bound(line, solution%p) - solution%tau), dim=1, kind=ip)
+         results%verdict = results%verdict//'; no point changes its state, the friction bound is off most at node ' &
+                           //to_text(mesh%node_id(rows%node(rows%first(i))))
+      end if
+   end subroutine report_unsettled
+
+   !> Normal unknowns that find no rest, by the number of their changes. One that has changed once and stayed has settled.
+   pure function restless_points(states) result(order)
+      integer(ip), intent(in) :: states(:, :)       !< (n_normal, outer iterations)
+      integer(ip), allocatable :: order(:)
+      integer(ip) :: changes(size(states, 1)), i, j
+
+      do i = 1, size(states, 1, kind=ip)
+         associate (own => states(i, :), n => size(states, 2))
+            changes(i) = count(own(2:) /= own(:n - 1), kind=ip)
+            if (changes(i) == 1 .and. own(n) == own(max(n - 1, 1))) changes(i) = 0
+         end associate
+      end do
+      allocate (order(0))
+      do j = size(states, 2, kind=ip) - 1, 1, -1
+         order = [order, pack([(i, i=1, size(changes, kind=ip))], changes == j)]
+      end do
+   end function restless_points
 
 end module atrito_solution_warnings

@@ -67,6 +67,7 @@ contains
       type(status_t), intent(inout) :: status
       character(len=:), allocatable :: reason
       integer :: i
+      integer(ip) :: e
 
       self%states = states_t()                       ! nothing of the mesh before
       self%n_tables = 0
@@ -74,7 +75,14 @@ contains
          reason = ''
          associate (view => self%views(i)%s)
             if (element_of(view) > 0) then
-               call check_element(data, element_of(view), reason)
+               e = find_element(data%fem%mesh, element_of(view))
+               if (e == 0) then
+                  associate (ids => data%fem%mesh%element_id(:data%fem%mesh%n_elements))
+                     reason = 'there is no such element; they are '//to_text(minval(ids))//' to '//to_text(maxval(ids))
+                  end associate
+               else if (STATES(data%fem%mesh%state(e))%has_hoop) then
+                  reason = 'the element is axisymmetric; those in the plane can be seen'
+               end if
             else if (view == 'matrix') then
                if (.not. all(data%fem%bodies%list%by_profile)) then
                   reason = 'no body is numbered for a profile; with --solver skyline one is'
@@ -93,21 +101,6 @@ contains
          end associate
       end do
    end subroutine check_views
-
-   subroutine check_element(data, id, reason)
-      class(scene_data_t), intent(in) :: data
-      integer(ip), intent(in) :: id
-      character(len=:), allocatable, intent(inout) :: reason
-      integer(ip) :: e
-
-      e = find_element(data%fem%mesh, id)
-      if (e == 0) then
-         reason = 'there is no such element; they are '//to_text(minval(data%fem%mesh%element_id(:data%fem%mesh%n_elements)))// &
-                  ' to '//to_text(maxval(data%fem%mesh%element_id(:data%fem%mesh%n_elements)))
-      else if (STATES(data%fem%mesh%state(e))%has_hoop) then
-         reason = 'the element is axisymmetric; those in the plane can be seen'
-      end if
-   end subroutine check_element
 
    !> What the last increment made, in place of what the one before made.
    subroutine view_all(self, data, results, solution)

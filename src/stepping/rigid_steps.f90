@@ -47,7 +47,10 @@ contains
       type(nodal_values_t), intent(in) :: prescribed       !< now, of reference nodes
       real(wp), allocatable :: released(:, :)              !< (2, nodes of the solver's mesh) [F]
       real(wp), allocatable :: of_terms(:, :)
-      integer(ip) :: n
+      integer(ip) :: n, i, m
+      logical :: is_prescribed(3)
+      real(wp) :: motion(3), reaction(3)
+      type(nodal_values_t) :: loads
 
       n = data%model%mesh%n_nodes
       released = merge(last%reaction, 0.0_wp, data%held(:, :n) .and. .not. held(:, :n))
@@ -58,27 +61,16 @@ contains
       end if
       if (.not. has_moving_surfaces(data%model)) return
       released(:, data%model%rigid_bodies%node) = 0.0_wp
-      call add_rigid_loads(data%model, released_loads(data, last%rigid, prescribed), released)
-   end function released_forces
-
-   !> The same at reference nodes, where what holds them is a load now.
-   pure function released_loads(data, last, prescribed) result(loads)
-      type(scene_data_t), intent(in) :: data
-      type(rigid_result_t), intent(in) :: last(:)
-      type(nodal_values_t), intent(in) :: prescribed
-      type(nodal_values_t) :: loads
-      logical :: is_prescribed(3)
-      real(wp) :: motion(3), reaction(3)
-      integer(ip) :: i, m
-
-      do i = 1, size(last, kind=ip)
+      ! The same at reference nodes, where what holds them is a load now.
+      do i = 1, size(last%rigid, kind=ip)
          call prescribed_motion(data%model, prescribed, i, is_prescribed, motion)
-         reaction = [last(i)%reaction, last(i)%moment]
+         reaction = [last%rigid(i)%reaction, last%rigid(i)%moment]
          do m = 1, size(reaction, kind=ip)
-            if (is_prescribed(m) .or. .not. last(i)%is_prescribed(m)) cycle
+            if (is_prescribed(m) .or. .not. last%rigid(i)%is_prescribed(m)) cycle
             call add_nodal_value(loads, data%model%rigid_bodies(i)%node, DOF_OF_MOTION(m), reaction(m))
          end do
       end do
-   end function released_loads
+      call add_rigid_loads(data%model, loads, released)
+   end function released_forces
 
 end module atrito_rigid_steps

@@ -141,7 +141,7 @@ contains
       type(table_file_t), intent(in) :: a, b          !< of one name, or that the user gives
       type(comparison_t), intent(inout) :: comparison !< begun; counts and differences are added
       integer(ip), allocatable :: column_in_b(:)
-      integer(ip) :: before, column
+      integer(ip) :: before, column, i, k, quantity
 
       comparison%n_tables = comparison%n_tables + 1
       before = comparison%n_differences
@@ -149,7 +149,18 @@ contains
          call report(comparison, a%name//': NOT CONVERGED in the '//trim(merge('first ', 'second', a%not_converged))//' only')
       end if
       call match_columns(a, b, comparison, column_in_b)
-      call tell_unused(a, comparison)
+      ! A rule for a column that the table has not would be of no use, unseen.
+      quantity = merge(find_column(a, 'quantity'), 0_ip, has_quantities(a))
+      do i = 1, size(comparison%rules%list, kind=ip)
+         associate (rule => comparison%rules%list(i))
+            if (rule%table /= stem(a) .or. rule%column == ANY_NAME) cycle
+            if (quantity == 0 .and. find_column(a, rule%column) > 0) cycle
+            if (quantity > 0) then
+               if (any([(item_text(a, quantity, k) == rule%column, k=1, a%n_rows)])) cycle
+            end if
+            call report(comparison, a%name//': there is no '//rule%column//', of which --tolerances or --ignore tells')
+         end associate
+      end do
       if (kind_of(a) == kind_of(b) .and. has_quantities(a)) then
          call compare_summaries(a, b, comparison)
          return
@@ -162,25 +173,6 @@ contains
          if (column_in_b(column) > 0) call compare_columns(a, b, column, column_in_b(column), comparison)
       end do
    end subroutine compare_tables
-
-   !> A rule for a column that the table has not would be of no use, unseen.
-   subroutine tell_unused(a, comparison)
-      type(table_file_t), intent(in) :: a
-      type(comparison_t), intent(inout) :: comparison
-      integer(ip) :: i, k, quantity
-
-      quantity = merge(find_column(a, 'quantity'), 0_ip, has_quantities(a))
-      do i = 1, size(comparison%rules%list, kind=ip)
-         associate (rule => comparison%rules%list(i))
-            if (rule%table /= stem(a) .or. rule%column == ANY_NAME) cycle
-            if (quantity == 0 .and. find_column(a, rule%column) > 0) cycle
-            if (quantity > 0) then
-               if (any([(item_text(a, quantity, k) == rule%column, k=1, a%n_rows)])) cycle
-            end if
-            call report(comparison, a%name//': there is no '//rule%column//', of which --tolerances or --ignore tells')
-         end associate
-      end do
-   end subroutine tell_unused
 
    !> The name of a table: that of its file without the ending.
    pure function stem(table) result(name)

@@ -63,6 +63,7 @@ contains
       type(page_t), intent(out) :: page              !< what is to be printed
       integer :: k, i
       type(page_t) :: part
+      character(len=:), allocatable :: text
 
       call begin_report(page, '   study of '//deck)
       call add_rule(page, '-')
@@ -71,8 +72,12 @@ contains
                                       'est. %', 'cpu s'))
          do k = 1, size(study%rows)
             associate (row => study%rows(k))
+               associate (x => 100*quantity%error(k))
+                  text = '-'
+                  if (.not. is_nan(x)) text = number(x, 3)
+               end associate
                call add_line(page, row_text(row%element, to_text(row%level), to_text(row%n_dofs), number(row%values(1), 6), &
-                                            text_of(100*quantity%error(k)), order_text(quantity%order(k)), &
+                                            text, order_text(quantity%order(k)), &
                                             number(row%estimate, 3), number(total_seconds(row, PROCESSOR), 3)))
             end associate
          end do
@@ -97,14 +102,6 @@ contains
       text = left(element, 8)//right(level, 5)//right(dofs, 9)//right(value, 19)//right(error, 11)//right(order, 8) &
              //right(estimate, 9)//right(seconds, 10)
    end function row_text
-
-   pure function text_of(x) result(text)
-      real(wp), intent(in) :: x
-      character(len=:), allocatable :: text
-
-      text = '-'
-      if (.not. is_nan(x)) text = number(x, 3)
-   end function text_of
 
    !> Two decimals: a smaller order is none.
    pure function order_text(x) result(text)

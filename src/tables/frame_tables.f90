@@ -39,31 +39,14 @@ contains
       type(results_t), intent(in) :: frame !< of one increment
       character(len=*), intent(in) :: name !< of the table
       logical, intent(in) :: is_last       !< the last frame of the history
-      character(len=*), parameter :: ALONE(8) = [character(len=12) :: 'nodes', 'reactions', 'stress', 'nodal_stress', 'bodies', &
-                                                                                                       'joints', 'sections', 'path']
-      integer(ip) :: frequencies(0:size(ALONE))
-
-      has = has_table(model, frame, name)
-      if (name == 'extremes' .or. name == 'resultants') return      ! they have rows of every frame
-      if (is_last .or. .not. has) return
-      associate (every => model%steps(frame%step)%requests%every)
-         ! what ties, equations and springs transmit and rigid surfaces do is printed as often as the contact
-         frequencies = [every%contact, every%nodes, every%reactions, every%stress, every%nodal_stress, every%bodies, every%joints, &
-                        every%sections, every%paths]
-      end associate
-      has = is_due(frequencies(findloc(ALONE == name, .true., dim=1)), frame%increment, frame%ends_step)
-   end function has_frame_rows
-
-   !> Whether a frame can have rows in a table, and its step asks for them.
-   pure logical function has_table(model, frame, name)
-      type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: frame
-      character(len=*), intent(in) :: name
       character(len=*), parameter :: NAMES(12) = [character(len=12) :: 'contact', 'nodes', 'reactions', 'stress', 'nodal_stress', &
                                                           'bodies', 'joints', 'sections', 'path', 'rigid', 'extremes', 'resultants']
+      integer, parameter :: OWN = 9         !< the first so many are printed as often as their steps say
+      integer(ip) :: frequencies(OWN)
       logical :: is_there(size(NAMES))
       integer :: i
 
+      ! Whether the frame can have rows in the table, and its step asks for them.
       i = findloc(NAMES == name, .true., dim=1)
       associate (requests => model%steps(frame%step)%requests)
          is_there = [pair_count(frame) > 0, requests%nodes .and. allocated(frame%u), &
@@ -73,9 +56,17 @@ contains
                      allocated(requests%paths) .and. allocated(frame%nodal_stress), &
                      allocated(frame%rigid), allocated(frame%extremes), has_resultants(model)]
       end associate
-      if (i > 0) has_table = is_there(i)
-      if (i == 0) has_table = has_rows(model, frame, name)
-   end function has_table
+      if (i > 0) has = is_there(i)
+      if (i == 0) has = has_rows(model, frame, name)
+      if (name == 'extremes' .or. name == 'resultants') return      ! they have rows of every frame
+      if (is_last .or. .not. has) return
+      associate (every => model%steps(frame%step)%requests%every)
+         ! what ties, equations and springs transmit and rigid surfaces do is printed as often as the contact
+         frequencies = [every%contact, every%nodes, every%reactions, every%stress, every%nodal_stress, every%bodies, every%joints, &
+                        every%sections, every%paths]
+      end associate
+      has = is_due(frequencies(merge(i, 1, i >= 1 .and. i <= OWN)), frame%increment, frame%ends_step)
+   end function has_frame_rows
 
    !> The rows of a frame in a table; the table may point at the fields of model and frame.
    subroutine build_frame_table(model, frame, scales, own, name, table)
@@ -85,6 +76,8 @@ contains
       type(scales_t), intent(in) :: own(:)          !< of each pair
       character(len=*), intent(in) :: name          !< of the table
       type(table_t), intent(out) :: table           !< rows of the frame; the last column is their increment
+      integer(ip), allocatable :: node(:)
+      integer(ip) :: n
 
       select case (name)
       case ('contact')
@@ -92,7 +85,13 @@ contains
       case ('nodes', 'nodal_stress')
          call build_nodes(model, frame, scales, name, table)
       case ('reactions')
-         call build_reactions(model, frame, scales, table)
+         node = places(model%steps(frame%step)%requests%node_rf, model%mesh%n_nodes)
+         node = pack(node, any(frame%prescribed(:, node), dim=1))
+         n = size(node, kind=ip)
+         call begin_step_table(table, 'reactions', 'a row a node with a prescribed displacement', n, frame%step)
+         call add_integers(table, 'node', model%mesh%node_id(node))
+         call add_reals(table, 'r1', 'F', frame%reaction(1, node), scales%force)
+         call add_reals(table, 'r2', 'F', frame%reaction(2, node), scales%force)
       case ('stress')
          call build_stress(model, frame, scales, table)
       case ('bodies')
@@ -225,23 +224,6 @@ contains
       takes_all = .true.
       if (allocated(mask)) takes_all = all(mask)
    end function takes_all
-
-   subroutine build_reactions(model, results, scales, table)
-      type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
-      type(scales_t), intent(in) :: scales
-      type(table_t), intent(out) :: table
-      integer(ip), allocatable :: node(:)
-      integer(ip) :: n
-
-      node = places(model%steps(results%step)%requests%node_rf, model%mesh%n_nodes)
-      node = pack(node, any(results%prescribed(:, node), dim=1))
-      n = size(node, kind=ip)
-      call begin_step_table(table, 'reactions', 'a row a node with a prescribed displacement', n, results%step)
-      call add_integers(table, 'node', model%mesh%node_id(node))
-      call add_reals(table, 'r1', 'F', results%reaction(1, node), scales%force)
-      call add_reals(table, 'r2', 'F', results%reaction(2, node), scales%force)
-   end subroutine build_reactions
 
    !> Places of the nodes asked for; all where nothing is said.
    pure function places(mask, n) result(list)

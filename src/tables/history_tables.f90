@@ -31,7 +31,13 @@ contains
       allocate (names(n), values(n))
       do i = 1, n
          names(i)%s = trim(list(i)%name)
-         values(i)%s = quantity_text(list(i), digits)
+         if (list(i)%is_count) then
+            values(i)%s = to_text(nint(list(i)%value, ip))
+         else if (abs_is_below(list(i)%value, ZERO_SHARE*list(i)%scale)) then
+            values(i)%s = '0'
+         else
+            values(i)%s = trimmed_real(list(i)%value, digits)
+         end if
       end do
       call begin_table(table, 'summary', 'a row a quantity, by pair; pair 0 is the step', n)
       call add_integers(table, 'step', [frame%step])
@@ -60,20 +66,6 @@ contains
          list(n*n_each + 1:) = of_step
       end associate
    end subroutine list_quantities
-
-   pure function quantity_text(quantity, digits) result(text)
-      type(quantity_t), intent(in) :: quantity
-      integer, intent(in) :: digits
-      character(len=:), allocatable :: text
-
-      if (quantity%is_count) then
-         text = to_text(nint(quantity%value, ip))
-      else if (abs_is_below(quantity%value, ZERO_SHARE*quantity%scale)) then
-         text = '0'
-      else
-         text = trimmed_real(quantity%value, digits)
-      end if
-   end function quantity_text
 
    !> Notes the names of a frame's quantities by their dimensions, each once, in the order in which they come.
    subroutine note_quantities(frame, own, names)
@@ -115,12 +107,22 @@ contains
       type(history_t), intent(in) :: history        !< with rows, or with what was observed
       real(wp), intent(in) :: length                !< largest coordinate [L]
       type(table_t), intent(out) :: table           !< step, increment, time, and what is known of each
-      integer(ip) :: i
+      integer(ip) :: i, k, place(size(history%rows))
 
       associate (list => history%observed)
          if (size(history%rows) > 0) then
             call build_rows(history%rows, length, table)
-            if (list%n > 0) call add_observed(history, places_of(history%rows, list), table)
+            ! Where the increment of each row is in the list; both go with the time.
+            k = 1
+            do i = 1, merge(size(history%rows, kind=ip), 0_ip, list%n > 0)
+               associate (row => history%rows(i))
+                  do while (k < list%n .and. (list%step(k) /= row%step .or. list%increment(k) /= row%increment))
+                     k = k + 1
+                  end do
+               end associate
+               place(i) = k
+            end do
+            if (list%n > 0) call add_observed(history, place, table)
          else
             call begin_table(table, 'history', 'a row an increment', list%n)
             call add_integers(table, 'step', list%step(:list%n))
@@ -130,21 +132,6 @@ contains
          end if
       end associate
    end subroutine build_history
-
-   !> Where the increment of each row is in the list; both go with the time.
-   pure function places_of(rows, list) result(place)
-      type(history_row_t), intent(in) :: rows(:)
-      type(observed_list_t), intent(in) :: list
-      integer(ip) :: place(size(rows)), i, k
-
-      k = 1
-      do i = 1, size(rows, kind=ip)
-         do while (k < list%n .and. (list%step(k) /= rows(i)%step .or. list%increment(k) /= rows(i)%increment))
-            k = k + 1
-         end do
-         place(i) = k
-      end do
-   end function places_of
 
    !> A column each of what is observed.
    subroutine add_observed(history, place, table)

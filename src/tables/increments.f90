@@ -37,18 +37,11 @@ contains
             list(i) = increment_t(history%frames(i)%step, history%frames(i)%increment, history%frames(i)%time)
          end if
       end do
-      list = pack(list, [(is_first(list, i), i=1, n)])
+      ! Rows of one increment stand together: the first of them is kept.
+      list = pack(list, [(.true., i=1, min(n, 1_ip)), &
+                         list(2:)%step /= list(:n - 1)%step .or. list(2:)%increment /= list(:n - 1)%increment])
       call add_outcomes(history%iterations, list)
    end function list_increments
-
-   !> Whether a place of the list begins an increment: rows of one stand together.
-   pure logical function is_first(list, i)
-      type(increment_t), intent(in) :: list(:)
-      integer(ip), intent(in) :: i
-
-      is_first = i == 1
-      if (.not. is_first) is_first = list(i)%step /= list(i - 1)%step .or. list(i)%increment /= list(i - 1)%increment
-   end function is_first
 
    !> The outcome of each increment is that of its last iteration.
    pure subroutine add_outcomes(iterations, list)

@@ -15,7 +15,7 @@ module atrito_listing
    use atrito_grid, only: grid_t, begin_grid, add_row, put_grid, put_table, CELL
    use atrito_increments, only: has_history, increment_name, ending_text
    use atrito_model, only: model_t, name_units
-   use atrito_results, only: results_t, history_t, balance_t, error_bound_t, last_frame, view_frame
+   use atrito_results, only: results_t, history_t, error_bound_t, last_frame, view_frame
    use atrito_page, only: page_t, begin_page, add_line, add_blank, add_rule, add_heading, add_entry, add_paragraph, left, right, &
                           number, bytes
    use atrito_model_report, only: describe_model
@@ -112,9 +112,19 @@ contains
       type(page_t), intent(inout) :: page
       type(results_t), intent(in) :: results
       type(string_t), intent(in), optional :: pictures(:)
+      type(string_t), allocatable :: lines(:)
+      integer(ip) :: i
+      integer :: j, k
+      type(phase_time_t), allocatable :: phases(:)
 
       call add_heading(page, '8  MESSAGES')
-      call add_messages(page)
+      if (count_messages() == 0) call add_line(page, '   none')
+      do i = 1, count_messages()
+         lines = format_message(get_message(i))
+         do j = 1, size(lines)
+            call add_paragraph(page, trim(lines(j)%s), merge(3, 6, j == 1))
+         end do
+      end do
       if (present(pictures)) then
          call add_blank(page)
          call add_entry(page, 'plots, drawn after this listing', 'plots/')
@@ -124,7 +134,14 @@ contains
       call add_entry(page, 'estimated error', number(results%error_estimate, DIGITS)//' % of the energy norm')
       call add_bound(page, results%error_bound)
       if (allocated(results%bounded)) call add_bounded(page, results)
-      call add_times(page)
+      call add_entry(page, 'peak memory', bytes(peak_memory()))
+      call add_blank(page)
+      call add_line(page, '   '//left('phase', 24)//right('wall [s]', 12)//right('cpu [s]', 12))
+      phases = get_phases()
+      do k = 1, size(phases)
+         call add_line(page, time_line(trim(phases(k)%name), phases(k)%wall, phases(k)%cpu))
+      end do
+      call add_line(page, time_line('total', sum(phases%wall), sum(phases%cpu)))
    end subroutine add_end
 
    !> What is proved of the error, for what, and of which parts it is made.
@@ -351,7 +368,6 @@ contains
       type(results_t), intent(in) :: results
       type(scales_t), intent(in) :: scales
       type(quantity_t), allocatable :: list(:)
-      type(balance_t) :: b
       type(grid_t) :: grid
       real(wp) :: parts(3, 5), force
       real(wp), parameter :: SUMMED = 1.0e5_wp       !< 1e-9 of all forces is nothing, as on the screen
@@ -359,15 +375,13 @@ contains
                                                                          'from rigid surfaces', 'from springs and equations', 'sum']
       integer :: i
 
-      b = results%balance
-      if (b%is_revolved) then
+      associate (b => results%balance)
+         parts(:, :4) = reshape([b%applied, b%reactions, -b%rigid, -b%rows], [3, 4])
+      end associate
+      if (results%balance%is_revolved) then
          call add_line(page, '   of the full circle: what is radial, and moments, balance in themselves')
-         b = balance_t([0.0_wp, b%applied(2)], [0.0_wp, b%reactions(2)], rigid=[0.0_wp, b%rigid(2)], rows=[0.0_wp, b%rows(2)])
+         parts([1, 3], :4) = 0.0_wp
       end if
-      parts(:, 1) = [b%applied, b%applied_moment]
-      parts(:, 2) = [b%reactions, b%reaction_moment]
-      parts(:, 3) = -[b%rigid, b%rigid_moment]
-      parts(:, 4) = -[b%rows, b%rows_moment]
       parts(:, 5) = sum(parts(:, :4), dim=2)         ! equilibrium makes it zero
       force = SUMMED*sum(abs(parts(:2, :4)))         ! by which round-off is measured
       call begin_grid(grid, 1, 'resultants'//CELL//'F1 [F]'//CELL//'F2 [F]'//CELL//'moment about 0,0 [F L]')
@@ -392,36 +406,6 @@ contains
                                                                    'DOES NOT HOLD, or was not reached', &
                                                                    results%converged .and. results%law_holds)))
    end subroutine add_equilibrium
-
-   subroutine add_messages(page)
-      type(page_t), intent(inout) :: page
-      type(string_t), allocatable :: lines(:)
-      integer(ip) :: i
-      integer :: j
-
-      if (count_messages() == 0) call add_line(page, '   none')
-      do i = 1, count_messages()
-         lines = format_message(get_message(i))
-         do j = 1, size(lines)
-            call add_paragraph(page, trim(lines(j)%s), merge(3, 6, j == 1))
-         end do
-      end do
-   end subroutine add_messages
-
-   subroutine add_times(page)
-      type(page_t), intent(inout) :: page
-      type(phase_time_t), allocatable :: phases(:)
-      integer :: i
-
-      call add_entry(page, 'peak memory', bytes(peak_memory()))
-      call add_blank(page)
-      call add_line(page, '   '//left('phase', 24)//right('wall [s]', 12)//right('cpu [s]', 12))
-      phases = get_phases()
-      do i = 1, size(phases)
-         call add_line(page, time_line(trim(phases(i)%name), phases(i)%wall, phases(i)%cpu))
-      end do
-      call add_line(page, time_line('total', sum(phases%wall), sum(phases%cpu)))
-   end subroutine add_times
 
    pure function time_line(name, wall, cpu) result(text)
       character(len=*), intent(in) :: name

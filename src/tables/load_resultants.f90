@@ -23,18 +23,16 @@ module atrito_load_resultants
 contains
 
    !> Resultants of the three kinds of load at the end of a step.
-   pure subroutine load_resultants(model, concentrated, pressure, body, step)
+   pure subroutine load_resultants(model, concentrated, pressure, body, k)
       type(model_t), intent(in) :: model            !< loads, amplitudes and mesh are read
       type(force_t), intent(out) :: concentrated    !< on nodes
       type(force_t), intent(out) :: pressure        !< on element faces
       type(force_t), intent(out) :: body            !< in elements
-      integer(ip), intent(in), optional :: step     !< default 1
+      integer(ip), intent(in) :: k                  !< the step
       type(element_load_t) :: last
-      integer(ip) :: i, k
+      integer(ip) :: i
       integer :: n
 
-      k = 1
-      if (present(step)) k = step
       call add_nodal_loads(model, k, model%steps(k)%node_loads, concentrated)
       call add_nodal_loads(model, k, model%steps(k)%rigid_loads, concentrated)
       last = model%steps(k)%element_loads
@@ -96,6 +94,8 @@ contains
       type(element_load_t), intent(in) :: loads     !< on faces or in elements, with their full values
       integer(ip), intent(in) :: i                  !< place in loads
       type(force_t), intent(inout) :: force         !< is added to
+      real(wp) :: a(2), b(2), push
+      integer(ip) :: e, face
 
       select case (loads%kind(i))
       case (LOAD_PRESSURE)
@@ -103,7 +103,14 @@ contains
          if (IS_TAPERED(model%mesh%state(loads%element(i))) .or. any(abs(loads%value(2:, i)) > 0.0_wp)) then
             call add_face_load(model, loads, i, force)
          else
-            call add_pressure(model, loads, i, force)
+            ! A uniform pressure on a face, curved or not, has the resultant of the same pressure on its chord.
+            e = loads%element(i)
+            face = loads%face(i)
+            a = model%mesh%x(:, model%mesh%nodes(face, e))
+            b = model%mesh%x(:, model%mesh%nodes(face_end(model%mesh, e, face), e))
+            push = loads%value(1, i)*depth_at(model%mesh%state(e), model%sections(model%section_of(e))%thickness, &
+                                              0.5_wp*a(1) + 0.5_wp*b(1))
+            call add_to(force, push*[a(2) - b(2), b(1) - a(1)], 0.5_wp*a + 0.5_wp*b)
          end if
       case (LOAD_BODY)
          call add_nodal_forces(model, loads%element(i), loads%value(:2, i), [0.0_wp, 0.0_wp, 0.0_wp], force)
@@ -138,23 +145,6 @@ contains
       call add_to(force, f, x)
       if (dof > 2) force%moment = force%moment + value
    end subroutine add_value
-
-   !> A uniform pressure on a face, curved or not, has the resultant of the same pressure on its chord.
-   pure subroutine add_pressure(model, loads, i, force)
-      type(model_t), intent(in) :: model
-      type(element_load_t), intent(in) :: loads
-      integer(ip), intent(in) :: i                  !< place in the element_loads
-      type(force_t), intent(inout) :: force
-      real(wp) :: a(2), b(2), push
-      integer(ip) :: e, face
-
-      e = loads%element(i)
-      face = loads%face(i)
-      a = model%mesh%x(:, model%mesh%nodes(face, e))
-      b = model%mesh%x(:, model%mesh%nodes(face_end(model%mesh, e, face), e))
-      push = loads%value(1, i)*depth_of(model, e, 0.5_wp*a(1) + 0.5_wp*b(1))
-      call add_to(force, push*[a(2) - b(2), b(1) - a(1)], 0.5_wp*a + 0.5_wp*b)
-   end subroutine add_pressure
 
    !> A load that is not uniform, or whose length counts: shape functions add up to 1, and times the nodes to the place.
    pure subroutine add_face_load(model, loads, i, force)
@@ -204,13 +194,5 @@ contains
          end do
       end associate
    end subroutine add_nodal_forces
-
-   pure real(wp) function depth_of(model, e, x1)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: e
-      real(wp), intent(in) :: x1
-
-      depth_of = depth_at(model%mesh%state(e), model%sections(model%section_of(e))%thickness, x1)
-   end function depth_of
 
 end module atrito_load_resultants

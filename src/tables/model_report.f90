@@ -43,12 +43,22 @@ contains
       type(page_t), intent(inout) :: page !< the lines are added to it
       type(model_t), intent(in) :: model  !< mesh, sets, materials and pairs are counted
       character(len=:), allocatable :: text
-      integer(ip) :: rigid
+      integer(ip) :: counts(size(KINDS)), e, kind, rigid
 
       text = unit_names(model%units)
       if (len(text) > 0) call add_entry(page, 'units', text)
       call add_entry(page, 'nodes', to_text(model%mesh%n_nodes))
-      call add_entry(page, 'elements', to_text(model%mesh%n_elements)//element_types(model))
+      counts = 0
+      do e = 1, model%mesh%n_elements
+         kind = kind_of(model%mesh%shape(e), model%mesh%state(e))
+         counts(kind) = counts(kind) + 1
+      end do
+      text = ''                                     ! ` (75 CPE4, 36 CPS9)`
+      do kind = 1, size(KINDS, kind=ip)
+         if (counts(kind) > 0) text = text//', '//to_text(counts(kind))//' '//trim(KINDS(kind)%name)
+      end do
+      if (len(text) > 0) text = ' ('//text(3:)//')'
+      call add_entry(page, 'elements', to_text(model%mesh%n_elements)//text)
       if (model%levels > 0) call add_entry(page, 'refined', plural(model%levels, 'time', 'times')// &
                                            ': each element of the deck is '//to_text(4_ip**model%levels)//' now')
       if (model%n_cut > 0) call add_entry(page, 'refined', 'where the error is: '//to_text(model%n_cut)// &
@@ -64,24 +74,6 @@ contains
       call add_entry(page, 'contact pairs', to_text(size(model%pairs, kind=ip)))
       if (len(joined_text(model)) > 0) call add_entry(page, 'joined by', joined_text(model))
    end subroutine describe_counts
-
-   !> ` (75 CPE4, 36 CPS9)`
-   pure function element_types(model) result(text)
-      type(model_t), intent(in) :: model
-      character(len=:), allocatable :: text
-      integer(ip) :: counts(size(KINDS)), e, kind
-
-      counts = 0
-      do e = 1, model%mesh%n_elements
-         kind = kind_of(model%mesh%shape(e), model%mesh%state(e))
-         counts(kind) = counts(kind) + 1
-      end do
-      text = ''
-      do kind = 1, size(KINDS, kind=ip)
-         if (counts(kind) > 0) text = text//', '//to_text(counts(kind))//' '//trim(KINDS(kind)%name)
-      end do
-      if (len(text) > 0) text = ' ('//text(3:)//')'
-   end function element_types
 
    !> The instances of parts: what their numbers are here, and where they stand.
    subroutine describe_instances(page, model)
@@ -229,7 +221,7 @@ contains
       type(model_t), intent(in) :: model             !< its steps are read
       integer(ip), intent(in), optional :: most      !< so many of the first; left out: all
       character(len=:), allocatable :: title
-      integer(ip) :: k, n
+      integer(ip) :: k, n, i
 
       n = size(model%steps, kind=ip)
       do k = 1, n
@@ -244,7 +236,16 @@ contains
             call add_line(page, '   step '//to_text(k)//title)
          end if
          call describe_increments(page, model%steps(k), n)
-         call describe_overlaps(page, model, model%steps(k))
+         ! Overlaps that *CONTACT INTERFERENCE resolves, until they are.
+         if (allocated(model%steps(k)%overlap)) then
+            do i = 1, size(model%pairs, kind=ip)
+               if (model%steps(k)%overlap_from(i) <= 0.0_wp) cycle
+               call add_entry(page, 'overlap of pair '//to_text(i), 'up to '// &
+                              number(max(0.0_wp, -minval(model%points(i)%gap)), DIGITS)//' [L], '// &
+                              trim(merge('allowed                 ', 'resolved over the step  ', &
+                                         model%steps(k)%overlap(i) > 0.0_wp)))
+            end do
+         end if
          call describe_supports(page, model, k)
          call describe_loads(page, model, k)
       end do
@@ -281,22 +282,6 @@ contains
       call add_entry(page, 'increments', text)
       if (step%at_once) call add_entry(page, 'loads', 'at once, not over the step')
    end subroutine describe_increments
-
-   !> Overlaps that *CONTACT INTERFERENCE resolves, until they are.
-   subroutine describe_overlaps(page, model, step)
-      type(page_t), intent(inout) :: page
-      type(model_t), intent(in) :: model
-      type(step_t), intent(in) :: step
-      integer(ip) :: i
-
-      if (.not. allocated(step%overlap)) return
-      do i = 1, size(model%pairs, kind=ip)
-         if (step%overlap_from(i) <= 0.0_wp) cycle
-         call add_entry(page, 'overlap of pair '//to_text(i), 'up to '// &
-                        number(max(0.0_wp, -minval(model%points(i)%gap)), DIGITS)//' [L], '// &
-                        trim(merge('allowed                 ', 'resolved over the step  ', step%overlap(i) > 0.0_wp)))
-      end do
-   end subroutine describe_overlaps
 
    subroutine describe_supports(page, model, k)
       type(page_t), intent(inout) :: page
@@ -379,13 +364,18 @@ contains
    subroutine describe_interactions(page, model)
       type(page_t), intent(inout) :: page
       type(model_t), intent(in) :: model
+      character(len=:), allocatable :: text
       integer(ip) :: i
 
       if (size(model%pairs, kind=ip) == 0) return
       call add_blank(page)
       do i = 1, size(model%interactions, kind=ip)
-         call add_entry(page, model%interactions(i)%name//', contact', contact_text(model%interactions(i)))
-         call add_entry(page, model%interactions(i)%name//', friction', friction_text(model%interactions(i)))
+         associate (law => model%interactions(i))
+            text = 'exact (delta = 0)'
+            if (law%delta > 0.0_wp) text = 'penalty, delta '//number(law%delta, DIGITS)//' [L^3/F]'
+            call add_entry(page, law%name//', contact', text)
+            call add_entry(page, law%name//', friction', friction_text(law))
+         end associate
       end do
       associate (controls => model%steps(size(model%steps))%controls)
          call add_entry(page, 'outer loop', trim(METHOD_NAME(controls%method))//', tolerance '// &
@@ -419,14 +409,6 @@ contains
       call add_blank(page)
       call add_entry(page, 'field file', model%deck_name//'.xdmf, with .h5:'//text)
    end subroutine describe_fields
-
-   pure function contact_text(interaction) result(text)
-      type(interaction_t), intent(in) :: interaction
-      character(len=:), allocatable :: text
-
-      text = 'exact (delta = 0)'
-      if (interaction%delta > 0.0_wp) text = 'penalty, delta '//number(interaction%delta, DIGITS)//' [L^3/F]'
-   end function contact_text
 
    pure function friction_text(interaction) result(text)
       type(interaction_t), intent(in) :: interaction

@@ -234,6 +234,7 @@ contains
       type(results_t), intent(in) :: frame
       type(sums_t), intent(inout) :: sums
       integer(ip) :: i
+      real(wp) :: value
 
       if (.not. allocated(frame%reaction)) return
       associate (held => model%steps(frame%step)%prescribed)
@@ -248,28 +249,18 @@ contains
             call add_to(sums%of(held%source(i)), frame%reaction(:, held%node(i)), model%mesh%x(:, held%node(i)))
          end do
       end associate
-      call add_reference_reactions(model, frame, model%steps(frame%step)%rigid_prescribed, sums)
+      ! Reactions at the reference nodes of rigid surfaces; a pre-tension section has none that holds a body.
+      associate (held => model%steps(frame%step)%rigid_prescribed)
+         do i = 1, merge(held%n, 0_ip, allocated(held%source) .and. allocated(frame%rigid))
+            associate (body => findloc(model%rigid_bodies%node, held%node(i), dim=1))
+               if (model%rigid_bodies(body)%is_section) cycle
+               value = frame%rigid(body)%moment
+               if (held%dof(i) <= 2) value = frame%rigid(body)%reaction(held%dof(i))
+            end associate
+            call add(held%source(i), held%dof(i), value, model%mesh%x(:, held%node(i)), sums)
+         end do
+      end associate
    end subroutine add_reactions
-
-   !> Reactions at the reference nodes of rigid surfaces; a pre-tension section has none that holds a body.
-   pure subroutine add_reference_reactions(model, frame, held, sums)
-      type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: frame
-      type(nodal_values_t), intent(in) :: held
-      type(sums_t), intent(inout) :: sums
-      integer(ip) :: i
-      real(wp) :: value
-
-      if (.not. (allocated(held%source) .and. allocated(frame%rigid))) return
-      do i = 1, held%n
-         associate (body => findloc(model%rigid_bodies%node, held%node(i), dim=1))
-            if (model%rigid_bodies(body)%is_section) cycle
-            value = frame%rigid(body)%moment
-            if (held%dof(i) <= 2) value = frame%rigid(body)%reaction(held%dof(i))
-         end associate
-         call add(held%source(i), held%dof(i), value, model%mesh%x(:, held%node(i)), sums)
-      end do
-   end subroutine add_reference_reactions
 
    !> A force along a dof at a place, or a moment.
    pure subroutine add(source, dof, value, x, sums)
@@ -287,10 +278,17 @@ contains
       type(model_t), intent(in) :: model
       type(step_t), intent(in) :: now               !< with the loads of a moment
       type(sums_t), intent(inout) :: sums
+      integer(ip) :: i
 
       call add_forces(model, now%node_loads, sums)
       call add_forces(model, now%rigid_loads, sums)
-      call add_element_loads(model, now%element_loads, sums)
+      if (allocated(now%element_loads%source)) then
+         do i = 1, now%element_loads%n
+            if (now%element_loads%source(i) == 0) cycle
+            sums%acts(now%element_loads%source(i)) = .true.
+            call add_element_load(model, now%element_loads, i, sums%of(now%element_loads%source(i)))
+         end do
+      end if
    end subroutine add_loads_of
 
    !> Forces at nodes, and moments at reference nodes. The force of a pre-tension section balances itself.
@@ -307,21 +305,7 @@ contains
       end do
    end subroutine add_forces
 
-   pure subroutine add_element_loads(model, loads, sums)
-      type(model_t), intent(in) :: model
-      type(element_load_t), intent(in) :: loads
-      type(sums_t), intent(inout) :: sums
-      integer(ip) :: i
-
-      if (.not. allocated(loads%source)) return
-      do i = 1, loads%n
-         if (loads%source(i) == 0) cycle
-         sums%acts(loads%source(i)) = .true.
-         call add_element_load(model, loads, i, sums%of(loads%source(i)))
-      end do
-   end subroutine add_element_loads
-
-   !> The tractions of rigid surfaces without a reference node, over all pairs of each.
+   !> The tractions of rigid surfaces without a reference node, whose support or load is told, over all pairs of each.
    pure subroutine find_rigid_surfaces(model, frame, rigid)
       type(model_t), intent(in) :: model
       type(results_t), intent(in) :: frame
@@ -333,7 +317,9 @@ contains
       do i = 1, pair_count(frame)
          associate (master => model%pairs(i)%master)
             if (model%surfaces(master)%kind /= SURFACE_SEGMENTS .or. any(surfaces == master)) cycle
-            if (moves(model, master)) cycle
+            if (allocated(model%rigid_bodies)) then
+               if (any(model%rigid_bodies%surface == master)) cycle
+            end if
             surfaces = [surfaces, master]
          end associate
       end do
@@ -353,14 +339,5 @@ contains
          end do
       end do
    end subroutine find_rigid_surfaces
-
-   !> Whether a rigid surface has a reference node, whose support or load is told.
-   pure logical function moves(model, surface)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: surface
-
-      moves = .false.
-      if (allocated(model%rigid_bodies)) moves = any(model%rigid_bodies%surface == surface)
-   end function moves
 
 end module atrito_resultant_report

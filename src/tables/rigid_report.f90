@@ -58,22 +58,30 @@ contains
       call clear_small(SUMMED*force*body%size, numbers(6:6))
    end function numbers_of
 
-   !> The rigid surfaces that move, and what of them is prescribed at the end of a step.
+   !> The rigid surfaces that move, and what of them is prescribed at the end of a step; pre-tension sections, by what they take out
+   !> or the force that acts then.
    subroutine describe_references(page, model, step)
       type(page_t), intent(inout) :: page !< the lines are added to it
       type(model_t), intent(in) :: model  !< rigid bodies and what is prescribed of them
       integer(ip), intent(in) :: step     !< from 1
       character(len=:), allocatable :: text
+      real(wp) :: moved, force
+      logical :: is_held, is_loaded
       integer(ip) :: i, k
 
       if (.not. allocated(model%rigid_bodies)) return
       do i = 1, size(model%rigid_bodies, kind=ip)
          text = ''
-         if (model%rigid_bodies(i)%is_section) then
-            call describe_section(page, model, step, i)
-            cycle
-         end if
          associate (held => model%steps(step)%rigid_prescribed, node => model%rigid_bodies(i)%node)
+            if (model%rigid_bodies(i)%is_section) then
+               call add_up(model, step, node, held, moved, is_held)
+               call add_up(model, step, node, model%steps(step)%rigid_loads, force, is_loaded)
+               text = 'force '//number(force, DIGITS)//' [F]'
+               if (is_held) text = number(moved, DIGITS)//' [L] taken out'
+               call add_entry(page, 'pre-tension '//model%surfaces(model%rigid_bodies(i)%surface)%name, &
+                              'node '//to_text(model%mesh%node_id(node))//', '//text)
+               cycle
+            end if
             do k = 1, held%n
                if (held%node(k) /= node) cycle
                if (len(text) > 0) text = text//', '
@@ -90,26 +98,6 @@ contains
          end associate
       end do
    end subroutine describe_references
-
-   !> A pre-tension section: its node, and what is prescribed or what force acts at the end of a step.
-   subroutine describe_section(page, model, step, i)
-      type(page_t), intent(inout) :: page
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: step
-      integer(ip), intent(in) :: i                  !< of the rigid bodies
-      character(len=:), allocatable :: text
-      real(wp) :: moved, force
-      logical :: is_held, is_loaded
-
-      associate (body => model%rigid_bodies(i))
-         call add_up(model, step, body%node, model%steps(step)%rigid_prescribed, moved, is_held)
-         call add_up(model, step, body%node, model%steps(step)%rigid_loads, force, is_loaded)
-         text = 'force '//number(force, DIGITS)//' [F]'
-         if (is_held) text = number(moved, DIGITS)//' [L] taken out'
-         call add_entry(page, 'pre-tension '//model%surfaces(body%surface)%name, &
-                        'node '//to_text(model%mesh%node_id(body%node))//', '//text)
-      end associate
-   end subroutine describe_section
 
    !> What a list has at dof 1 of a node at the end of a step.
    subroutine add_up(model, step, node, list, total, is_there)
@@ -136,10 +124,21 @@ contains
       type(scales_t), intent(in) :: scales   !< of the history: what is nothing beside them is 0
       type(grid_t) :: grid
       real(wp) :: numbers(6)
-      integer :: i
+      integer :: i, j
 
       if (.not. allocated(results%rigid)) return
-      call describe_sections(page, results)
+      ! What the sides of sections approach by, and their forces.
+      if (any(results%rigid%is_section)) then
+         call add_blank(page)
+         call add_line(page, '   '//left('pre-tension', 15)//right('taken out [L]', 16)//right('force [F]', 14))
+         do j = 1, size(results%rigid)
+            associate (body => results%rigid(j))
+               if (.not. body%is_section) cycle
+               call add_line(page, '   '//left(body%name, 15)//right(number(body%u(1), DIGITS), 16) &
+                             //right(number(body%force, DIGITS), 14))
+            end associate
+         end do
+      end if
       if (all(results%rigid%is_section)) return
       call add_blank(page)
       call begin_grid(grid, 1, 'rigid body'//CELL//'u1 [L]'//CELL//'u2 [L]'//CELL//'rotation'//CELL//'R1 [F]'//CELL//'R2 [F]'// &
@@ -155,24 +154,6 @@ contains
       end do
       call put_grid(page, grid)
    end subroutine describe_rigid_bodies
-
-   !> What the sides of sections approach by, and their forces.
-   subroutine describe_sections(page, results)
-      type(page_t), intent(inout) :: page
-      type(results_t), intent(in) :: results        !< with rigid bodies
-      integer :: i
-
-      if (.not. any(results%rigid%is_section)) return
-      call add_blank(page)
-      call add_line(page, '   '//left('pre-tension', 15)//right('taken out [L]', 16)//right('force [F]', 14))
-      do i = 1, size(results%rigid)
-         associate (body => results%rigid(i))
-            if (.not. body%is_section) cycle
-            call add_line(page, '   '//left(body%name, 15)//right(number(body%u(1), DIGITS), 16) &
-                          //right(number(body%force, DIGITS), 14))
-         end associate
-      end do
-   end subroutine describe_sections
 
    !> A reaction, where there may be one.
    pure function held(is_prescribed, value) result(text)

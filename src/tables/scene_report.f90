@@ -135,9 +135,11 @@ contains
       if (n < size(scene%pairs)) call add_line(page, '   ... and '//to_text(size(scene%pairs, kind=ip) - n)//' more pairs')
    end subroutine describe_pairs
 
+   !> What a pair is; where its gap is least and greatest, unless it is the same everywhere.
    pure function pair_text(pair) result(text)
       type(pair_scene_t), intent(in) :: pair
       character(len=:), allocatable :: text
+      real(wp) :: size
 
       text = 'interaction '//text_of(pair%interaction)
       if (pair%master_is_rigid) then
@@ -149,23 +151,13 @@ contains
       end if
       if (pair%n_left_out > 0) text = text//', '//plural(pair%n_left_out, 'slave face', 'slave faces')// &
                                       ' without a master left out'
-      text = text//places_text(pair)
-   end function pair_text
-
-   !> Where the gap is least and greatest; a gap that is the same everywhere has no such place.
-   pure function places_text(pair) result(text)
-      type(pair_scene_t), intent(in) :: pair
-      character(len=:), allocatable :: text
-      real(wp) :: size
-
-      text = ''
       if (pair%least_node == 0) return              ! no points
       size = max(maxval(abs(pair%least_x)), maxval(abs(pair%greatest_x)))
       if (pair%greatest_gap - pair%least_gap <= SAME_GAP*size) return
-      text = '; least gap at '//place_text(pair%least_node, pair%least_x)//', greatest at '// &
+      text = text//'; least gap at '//place_text(pair%least_node, pair%least_x)//', greatest at '// &
              place_text(pair%greatest_node, pair%greatest_x)
       if (pair%least_gap < 0.0_wp) text = text//'; a negative gap is overlap'
-   end function places_text
+   end function pair_text
 
    !> `node 12 (0.5, 1)`
    pure function place_text(node, x) result(text)

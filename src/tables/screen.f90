@@ -7,7 +7,7 @@ module atrito_screen
    use atrito_system, only: peak_memory
    use atrito_timers, only: phase_time_t, get_phases
    use atrito_model, only: model_t, in_units
-   use atrito_results, only: contact_result_t, results_t, history_t, observed_t, quantity_bound_t, scene_t, has_forces, last_frame
+   use atrito_results, only: results_t, history_t, observed_t, quantity_bound_t, scene_t, has_forces, last_frame
    use atrito_increments, only: list_increments, has_history, increment_name, ending_text
    use atrito_extreme_report, only: add_extremes
    use atrito_model_report, only: describe_counts, describe_instances, describe_steps, is_history
@@ -60,16 +60,32 @@ contains
       type(page_t), intent(out) :: page                   !< at most 24 lines of 79 columns
       type(string_t), intent(in), optional :: pictures(:) !< that were drawn, names without folder and ending
       integer :: after                              ! lines of the end
-      integer :: i, extra_lines
+      integer :: i, n_bounded, extra_lines
+      logical :: has_trail
+      integer(ip) :: most
 
       call begin_deck_report(page, model, '')
       call add_rule(page, '-')
       associate (last => history%frames(last_frame(history)))
          call add_verdict(page, last, ending_text(history))
          call add_sizes(page, model, last)
-         if (has_history(model, history)) call add_item(page, 'history', history_text(model, history))
-         if (allocated(last%observed)) call add_observed(page, without_bounds(last))
-         if (allocated(last%bounded)) call add_bounded(page, last%bounded)
+         if (has_history(model, history)) then
+            call add_item(page, 'history', plural(size(model%steps, kind=ip), 'step', 'steps')//', '// &
+                          plural(size(list_increments(history), kind=ip), 'increment', 'increments')//'; below: '// &
+                          increment_name(last%step, last%increment, last%time))
+         end if
+         n_bounded = 0
+         if (allocated(last%bounded)) n_bounded = size(last%bounded)
+         ! bounds, which stand behind all else that is observed, have lines of their own
+         if (allocated(last%observed)) call add_observed(page, last%observed(:size(last%observed) - 2*n_bounded))
+         ! A line for each of the first bounds, and what they are bounds of.
+         do i = 1, min(n_bounded, MOST_OBSERVED)
+            associate (bound => last%bounded(i))
+               call add_item(page, trim(merge('bounded', '       ', i == 1)), trim(bound%name)//' '//bound_text(bound))
+            end associate
+         end do
+         if (n_bounded > MOST_OBSERVED) call add_item(page, '', 'and '//to_text(int(n_bounded - MOST_OBSERVED, ip))// &
+                                                      ' more in the listing')
          ! Lines of pictures, field files and the report.
          extra_lines = merge(1, 0, present(pictures))
          do i = 1, size(files)
@@ -80,10 +96,19 @@ contains
             call add_extremes(page, last)
             call add_supports(page, model, last)
          end if
-         if (has_trail(last)) then                  ! the pairs of the last iterate say less than how it got there
+         ! Whether the way of an iteration that did not converge is known.
+         has_trail = .not. last%converged .and. last%scene%outer_loop .and. allocated(last%iterations)
+         if (has_trail) has_trail = size(last%iterations) > 0
+         if (has_trail) then                  ! the pairs of the last iterate say less than how it got there
             call add_trail(page, last, SCREEN_LINES - page%n - after)
          else
-            call add_pairs(page, last, most_pairs(pair_count(last), SCREEN_LINES - page%n - after))
+            ! How many pairs there is room for: two lines each behind a head of three, and one that tells of more.
+            associate (room => SCREEN_LINES - page%n - after)
+               most = int((room - 3)/2, ip)
+               if (most < pair_count(last)) most = int((room - 4)/2, ip)
+               most = max(0_ip, most)
+            end associate
+            call add_pairs(page, last, most)
          end if
       end associate
       call add_rule(page, '-')
@@ -93,19 +118,6 @@ contains
       end if
       call add_rule(page, '=')
    end subroutine compose_summary
-
-   !> `2 steps, 7 increments; the last is step 2, increment 4, time 2`
-   function history_text(model, history) result(text)
-      type(model_t), intent(in) :: model
-      type(history_t), intent(in) :: history
-      character(len=:), allocatable :: text
-
-      text = plural(size(model%steps, kind=ip), 'step', 'steps')//', '// &
-             plural(size(list_increments(history), kind=ip), 'increment', 'increments')//'; below: '
-      associate (last => history%frames(last_frame(history)))
-         text = text//increment_name(last%step, last%increment, last%time)
-      end associate
-   end function history_text
 
    !> `tip = -0.012, peak = 3.4`: what some lines hold; all are in the listing.
    subroutine add_observed(page, observed)
@@ -132,28 +144,6 @@ contains
       call add_item(page, trim(merge('observed', '        ', n == 0)), text)
    end subroutine add_observed
 
-   !> What is observed, but the bounds behind it, which have lines of their own.
-   pure function without_bounds(results) result(observed)
-      type(results_t), intent(in) :: results
-      type(observed_t), allocatable :: observed(:)
-
-      observed = results%observed
-      if (allocated(results%bounded)) observed = observed(:size(observed) - 2*size(results%bounded))
-   end function without_bounds
-
-   !> A line for each of the first bounds, and what they are bounds of.
-   subroutine add_bounded(page, bounded)
-      type(page_t), intent(inout) :: page
-      type(quantity_bound_t), intent(in) :: bounded(:)
-      integer :: i, n
-
-      n = min(size(bounded), MOST_OBSERVED)
-      do i = 1, n
-         call add_item(page, trim(merge('bounded', '       ', i == 1)), trim(bounded(i)%name)//' '//bound_text(bounded(i)))
-      end do
-      if (n < size(bounded)) call add_item(page, '', 'and '//to_text(size(bounded, kind=ip) - n)//' more in the listing')
-   end subroutine add_bounded
-
    subroutine add_verdict(page, results, ending)
       type(page_t), intent(inout) :: page
       type(results_t), intent(in) :: results
@@ -175,8 +165,8 @@ contains
       type(page_t), intent(inout) :: page
       type(model_t), intent(in) :: model
       type(results_t), intent(in) :: results
-      character(len=:), allocatable :: large, unique, solvers
-      integer(ip) :: i
+      character(len=:), allocatable :: large, unique, solvers, text
+      integer(ip) :: i, n
 
       associate (scene => results%scene)
          ! millions would not fit beside the counts of elements and nodes, which are as many then
@@ -184,7 +174,16 @@ contains
                        plural(model%mesh%n_elements, 'element', 'elements')//', '// &
                        plural(model%mesh%n_nodes, 'node', 'nodes')//', '//to_text(scene%n_dofs)// &
                        ' '//trim(merge('free dofs         ', 'free displacements', scene%n_dofs >= 1000000)))
-         call add_item(page, 'contact', contact_text(model, scene))
+         n = 0
+         if (allocated(scene%pairs)) n = size(scene%pairs, kind=ip)
+         if (n == 0) then
+            text = 'none'
+         else
+            text = plural(n, 'pair', 'pairs')//', '//plural(sum(scene%pairs%n_points), 'point', 'points')//': '// &
+                   to_text(scene%n_normal - scene%n_rows)//' normal and '//to_text(scene%n_tangential)//' tangential unknowns'
+         end if
+         if (len(joined_text(model)) > 0) text = text//'; '//joined_text(model)
+         call add_item(page, 'contact', text)
          ! The solvers in use, each once.
          solvers = ''
          if (is_sparse_form(scene)) solvers = 'sparse'
@@ -211,23 +210,6 @@ contains
       end if
    end subroutine add_sizes
 
-   pure function contact_text(model, scene) result(text)
-      type(model_t), intent(in) :: model
-      type(scene_t), intent(in) :: scene
-      character(len=:), allocatable :: text
-      integer(ip) :: n
-
-      n = 0
-      if (allocated(scene%pairs)) n = size(scene%pairs, kind=ip)
-      if (n == 0) then
-         text = 'none'
-      else
-         text = plural(n, 'pair', 'pairs')//', '//plural(sum(scene%pairs%n_points), 'point', 'points')//': '// &
-                to_text(scene%n_normal - scene%n_rows)//' normal and '//to_text(scene%n_tangential)//' tangential unknowns'
-      end if
-      if (len(joined_text(model)) > 0) text = text//'; '//joined_text(model)
-   end function contact_text
-
    !> Whether all bodies are in one sparse matrix.
    pure logical function is_sparse_form(scene)
       type(scene_t), intent(in) :: scene
@@ -252,24 +234,6 @@ contains
          text = ', no outer loop'//text
       end if
    end function iteration_text
-
-   !> How many pairs there is room for: two lines each behind a head of three, and one that tells of more.
-   pure integer(ip) function most_pairs(n, room) result(most)
-      integer(ip), intent(in) :: n                  !< pairs there are
-      integer, intent(in) :: room                   !< lines
-
-      most = int((room - 3)/2, ip)
-      if (most < n) most = int((room - 4)/2, ip)
-      most = max(0_ip, most)
-   end function most_pairs
-
-   !> Whether the way of an iteration that did not converge is known.
-   pure logical function has_trail(results)
-      type(results_t), intent(in) :: results
-
-      has_trail = .not. results%converged .and. results%scene%outer_loop .and. allocated(results%iterations)
-      if (has_trail) has_trail = size(results%iterations) > 0
-   end function has_trail
 
    !> The last outer iterations, and the points that are unsettled; all of them are in the listing.
    subroutine add_trail(page, results, room)
@@ -323,6 +287,7 @@ contains
       type(page_t), intent(inout) :: page
       type(results_t), intent(in) :: results
       integer(ip), intent(in) :: most               !< pairs on the screen; the rest is in the listing
+      type(pair_summary_t) :: summary
       integer(ip) :: i, shown
 
       if (pair_count(results) == 0) return
@@ -336,7 +301,14 @@ contains
       call add_line(page, row_text('contact pair', 'area [%]', 'uniform', 'triangular', &
                                    'from end ['//in_units(page%units, 'L')//']'))
       do i = 1, shown
-         call add_pair(page, to_text(i)//' '//pair_name(results, i), results%contact(i))
+         summary = summarise_pair(results%contact(i))
+         call add_line(page, row_text(to_text(i)//' '//pair_name(results, i), number(summary%effective_area_percent, DIGITS), &
+                                      number(summary%max_pressure_over_uniform, DIGITS), &
+                                      number(summary%max_pressure_over_triangular, DIGITS), &
+                                      number(summary%resultant_from_end, DIGITS)))
+         call add_line(page, left('  normal '//number(summary%normal_resultant, DIGITS)//', shear '// &
+                                  number(summary%shear_resultant, DIGITS)//' [F]; max. p '// &
+                                  number(summary%max_pressure, DIGITS)//'; '//states_text(results%contact(i), summary), WIDTH))
       end do
       if (shown < size(results%contact)) then
          call add_line(page, '... and '//to_text(size(results%contact, kind=ip) - shown)//' more pairs in the listing')
@@ -349,22 +321,6 @@ contains
 
       text = left(label, LABEL_WIDTH)//right(area, 10)//right(uniform, 10)//right(triangular, 11)//right(distance, 14)
    end function row_text
-
-   subroutine add_pair(page, label, contact)
-      type(page_t), intent(inout) :: page
-      character(len=*), intent(in) :: label
-      type(contact_result_t), intent(in) :: contact
-      type(pair_summary_t) :: summary
-
-      summary = summarise_pair(contact)
-      call add_line(page, row_text(label, number(summary%effective_area_percent, DIGITS), &
-                                   number(summary%max_pressure_over_uniform, DIGITS), &
-                                   number(summary%max_pressure_over_triangular, DIGITS), &
-                                   number(summary%resultant_from_end, DIGITS)))
-      call add_line(page, left('  normal '//number(summary%normal_resultant, DIGITS)//', shear '// &
-                               number(summary%shear_resultant, DIGITS)//' [F]; max. p '//number(summary%max_pressure, DIGITS)// &
-                               '; '//states_text(contact, summary), WIDTH))
-   end subroutine add_pair
 
    subroutine add_closing(page, folder, files)
       type(page_t), intent(inout) :: page

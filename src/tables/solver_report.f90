@@ -119,13 +119,7 @@ contains
    subroutine list_used_libraries(scene, list)
       type(scene_t), intent(in) :: scene                   !< its bodies and their orders are read
       type(library_t), allocatable, intent(out) :: list(:) !< name and version, or that it was not used
-
-      call list_libraries(.true., list, is_by_metis(scene))
-   end subroutine list_used_libraries
-
-   !> Whether any order of elimination is METIS's.
-   pure logical function is_by_metis(scene)
-      type(scene_t), intent(in) :: scene
+      logical :: is_by_metis                               ! any order of elimination
       integer :: i
 
       is_by_metis = .false.
@@ -133,7 +127,8 @@ contains
       do i = 1, size(scene%bodies)
          if (allocated(scene%bodies(i)%order)) is_by_metis = is_by_metis .or. index(scene%bodies(i)%order, 'METIS') > 0
       end do
-   end function is_by_metis
+      call list_libraries(.true., list, is_by_metis)
+   end subroutine list_used_libraries
 
    !> Whether any body has a solver.
    pure logical function uses(scene, solver)

@@ -5,8 +5,8 @@ module atrito_summary
    use atrito_page, only: number, plural
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_model, only: model_t
-   use atrito_results, only: results_t, history_t, scene_t, contact_result_t, error_bound_t, quantity_bound_t, uniqueness_t, &
-                             view_frame, POINT_OPEN, POINT_STICK, POINT_SLIP
+   use atrito_results, only: results_t, history_t, scene_t, contact_result_t, quantity_bound_t, uniqueness_t, view_frame, &
+                             POINT_OPEN, POINT_STICK, POINT_SLIP
    use atrito_threads, only: CHUNK_LENGTH
    implicit none (type, external)
    private
@@ -150,7 +150,7 @@ contains
    !> The rows of a step (pair 0), in the order of summary.tab.
    pure function step_quantities(results) result(list)
       type(results_t), intent(in) :: results !< of one increment
-      type(quantity_t), allocatable :: list(:)
+      type(quantity_t), allocatable :: list(:), large(:)
       integer :: i
 
       list = [counted('picard_iterations', int(results%outer_iterations, ip)), &
@@ -158,25 +158,27 @@ contains
               quantity_t('equilibrium_residual', '-', results%equilibrium_residual, 0.0_wp), &
               quantity_t('strain_energy', 'F L', results%strain_energy, 0.0_wp), &
               quantity_t('external_work', 'F L', results%external_work, 0.0_wp), &
-              quantity_t('error_estimate_percent', '-', results%error_estimate, 0.0_wp), &
-              bound_quantities(results%error_bound), &
-              unique_quantities(results%uniqueness), &
-              large_quantities(results)]
+              quantity_t('error_estimate_percent', '-', results%error_estimate, 0.0_wp)]
+      associate (bound => results%error_bound)      ! of its square the shares of the bodies and of both laws of contact
+         if (bound%exists) list = [list, quantity_t('error_bound_percent', '-', bound%percent, 0.0_wp), &
+                                   counted('error_certified', merge(1_ip, 0_ip, bound%is_certified)), &
+                                   quantity_t('error_bound_bulk', '-', bound%bulk, 1.0_wp), &
+                                   quantity_t('error_bound_normal', '-', bound%normal, 1.0_wp), &
+                                   quantity_t('error_bound_tangential', '-', bound%tangential, 1.0_wp)]
+      end associate
+      associate (known => results%uniqueness)       ! with friction what is certified, and the index; of a search what it found
+         list = [list, pack([quantity_t('unique_up_to_nu', '-', known%up_to_nu, 0.0_wp), counted('index', known%index), &
+                             counted('solutions_found', known%solutions)], &
+                            known%nu > 0.0_wp .and. [len_trim(known%why_not) == 0, known%index /= 0, known%solutions > 0])]
+      end associate
+      large = [quantity_t('large_strain', '-', results%large_strain%value, 0.0_wp), &
+               quantity_t('large_rotation', '-', results%large_rotation%value, 0.0_wp), &
+               quantity_t('large_slip', 'L', results%large_slip%value, 0.0_wp)]
+      list = [list, pack(large, large%value > 0.0_wp)]   ! what passes the bounds of a linear theory (W-LARGE), and only that
       if (.not. allocated(results%observed)) return
       ! what --observe asks for: nothing is rounding, for of an expression no scale is known
       list = [list, [(quantity_t(results%observed(i)%name, '-', results%observed(i)%value, 0.0_wp), i=1, size(results%observed))]]
    end function step_quantities
-
-   !> What passes the bounds of a linear theory (W-LARGE), and only that.
-   pure function large_quantities(results) result(list)
-      type(results_t), intent(in) :: results
-      type(quantity_t), allocatable :: list(:)
-
-      list = [quantity_t('large_strain', '-', results%large_strain%value, 0.0_wp), &
-              quantity_t('large_rotation', '-', results%large_rotation%value, 0.0_wp), &
-              quantity_t('large_slip', 'L', results%large_slip%value, 0.0_wp)]
-      list = pack(list, list%value > 0.0_wp)
-   end function large_quantities
 
    !> The bound of the error and the estimate, or the estimate alone: one line of some 65 columns.
    pure function error_text(results) result(text)
@@ -211,19 +213,6 @@ contains
       text = text//')'
    end function bound_text
 
-   !> The bound of the error, whether it is certified, and of its square the shares of the bodies and of both laws of contact.
-   pure function bound_quantities(bound) result(list)
-      type(error_bound_t), intent(in) :: bound
-      type(quantity_t), allocatable :: list(:)
-
-      list = [quantity_t('error_bound_percent', '-', bound%percent, 0.0_wp), &
-              counted('error_certified', merge(1_ip, 0_ip, bound%is_certified)), &
-              quantity_t('error_bound_bulk', '-', bound%bulk, 1.0_wp), &
-              quantity_t('error_bound_normal', '-', bound%normal, 1.0_wp), &
-              quantity_t('error_bound_tangential', '-', bound%tangential, 1.0_wp)]
-      list = pack(list, bound%exists)
-   end function bound_quantities
-
    !> `strain 0.2, slip 1.5`: what passes its bound.
    pure function large_text(large) result(text)
       real(wp), intent(in) :: large(3)              !< strain, rotation [1] and slip [L]; 0: within their bounds
@@ -237,16 +226,6 @@ contains
       end do
       text = text(3:)
    end function large_text
-
-   !> What is known of other solutions: with friction what is certified, and the index; of a search what it found.
-   pure function unique_quantities(known) result(list)
-      type(uniqueness_t), intent(in) :: known
-      type(quantity_t), allocatable :: list(:)
-
-      list = [quantity_t('unique_up_to_nu', '-', known%up_to_nu, 0.0_wp), counted('index', known%index), &
-              counted('solutions_found', known%solutions)]
-      list = pack(list, known%nu > 0.0_wp .and. [len_trim(known%why_not) == 0, known%index /= 0, known%solutions > 0])
-   end function unique_quantities
 
    !> What is proved of the solution being the only one, in words that promise no more: one line of some 65 columns; '' without
    !> friction.
@@ -323,7 +302,7 @@ contains
       scales%length = largest(size(model%mesh%x, kind=lp), model%mesh%x)
       if (allocated(results%u)) scales%displacement = largest(size(results%u, kind=lp), results%u)
       if (allocated(results%reaction)) scales%force = largest(size(results%reaction, kind=lp), results%reaction)
-      scales%force = max(scales%force, maxval(abs(results%balance%applied)))
+      scales%force = max(scales%force, maxval(abs(results%balance%applied(:2))))
       do i = 1, pair_count(results)
          associate (contact => results%contact(i))
             if (contact%n == 0) cycle
@@ -340,13 +319,11 @@ contains
       end associate
    end function measure_fields
 
-   !> The scales of one pair's fields: its own pressure and area, and the displacements that meet there.
-   pure function scales_of_pair(scales, contact) result(own)
-      type(scales_t), intent(in) :: scales           !< of all fields
+   !> The scales that one pair's fields have of their own: its pressure and area, and the displacements that meet there.
+   pure function scales_of_pair(contact) result(own)
       type(contact_result_t), intent(in) :: contact
       type(scales_t) :: own
 
-      own = scales
       if (contact%n == 0) return
       own%pressure = maxval(abs(contact%pressure(:contact%n)))
       own%area = sum(contact%weight(:contact%n))
@@ -373,25 +350,17 @@ contains
             allocate (is_bare(size(own)), source=.false.)
          end if
          do pair = 1, size(own, kind=ip)
-            own(pair) = larger(own(pair), scales_of_pair(scales_t(), frame%contact(pair)))
+            own(pair) = larger(own(pair), scales_of_pair(frame%contact(pair)))
             is_bare(pair) = is_bare(pair) .or. frame%contact(pair)%n == 0
          end do
       end do
       do pair = 1, size(own, kind=ip)
-         own(pair) = merge(larger(own(pair), scales), with_own(scales, own(pair)), is_bare(pair))
+         associate (its => own(pair))               ! the scales of all fields, but those that the pair has of its own
+            its = merge(larger(its, scales), scales_t(scales%length, its%displacement, its%slip, its%pressure, scales%stress, &
+                                                      scales%nodal_stress, scales%force, its%area), is_bare(pair))
+         end associate
       end do
    end subroutine measure_history
-
-   !> The scales of all fields with those that a pair has of its own.
-   pure type(scales_t) function with_own(scales, own) result(both)
-      type(scales_t), intent(in) :: scales, own
-
-      both = scales
-      both%pressure = own%pressure
-      both%area = own%area
-      both%slip = own%slip
-      both%displacement = own%displacement
-   end function with_own
 
    pure type(scales_t) function larger(a, b)
       type(scales_t), intent(in) :: a, b

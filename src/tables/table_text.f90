@@ -56,7 +56,7 @@ contains
       type(growing_table_t), intent(inout) :: file  !< columns become wider; it is not open yet
       type(table_t), intent(inout) :: piece         !< its columns get their widths
       integer, intent(in) :: digits                 !< significant digits, 6..17
-      integer :: i, k, value_width
+      integer :: i, k, value_width, j
 
       ! Gives each column room for its values, its name and its dimension, so that the names stand above the numbers.
       do i = 1, size(piece%columns)
@@ -75,27 +75,21 @@ contains
             column%width = max(len(column%name), len(column%dimension), value_width)
          end associate
       end do
-      if (.not. allocated(file%head%columns)) call take_head(piece, file%head)
+      if (.not. allocated(file%head%columns)) then
+         file%head%name = piece%name
+         file%head%title = piece%title
+         file%head%remarks = piece%remarks
+         allocate (file%head%columns(size(piece%columns)))
+         do j = 1, size(piece%columns)
+            file%head%columns(j)%name = piece%columns(j)%name
+            file%head%columns(j)%dimension = piece%columns(j)%dimension
+            file%head%columns(j)%on_the_left = piece%columns(j)%on_the_left
+         end do
+      end if
       do i = 1, size(piece%columns)
          file%head%columns(i)%width = max(file%head%columns(i)%width, piece%columns(i)%width)
       end do
    end subroutine measure_rows
-
-   pure subroutine take_head(table, head)
-      type(table_t), intent(in) :: table
-      type(table_t), intent(out) :: head
-      integer :: i
-
-      head%name = table%name
-      head%title = table%title
-      head%remarks = table%remarks
-      allocate (head%columns(size(table%columns)))
-      do i = 1, size(table%columns)
-         head%columns(i)%name = table%columns(i)%name
-         head%columns(i)%dimension = table%columns(i)%dimension
-         head%columns(i)%on_the_left = table%columns(i)%on_the_left
-      end do
-   end subroutine take_head
 
    !> Opens the file of a table. What was measured for it stays.
    subroutine open_table(set, name, file, is_csv)
@@ -117,6 +111,8 @@ contains
       integer, intent(in) :: digits                      !< significant digits, 6..17
       type(string_t), intent(in), optional :: remarks(:) !< of the whole table; left out: those of its first piece
       integer :: i
+      character(len=:), allocatable :: text(:, :)
+      integer(ip) :: pieces, round, j
 
       if (.not. file%has_top) then
          if (.not. allocated(file%head%columns)) call measure_rows(file, piece, digits)
@@ -134,7 +130,17 @@ contains
          piece%columns(i)%width = file%head%columns(i)%width
       end do
       call place_columns(piece)
-      call write_rows(file%file, piece, digits, file%is_csv)
+      ! Rows are written by rounds: while the text of one is made, in pieces that threads share out, that of the one before is
+      ! written. What stands in the file depends neither on the rounds nor on the pieces.
+      pieces = 1
+      if (n_threads() > 1) pieces = PIECES_OF_THREAD*n_threads()
+      round = min(pieces*PIECE_ROWS, piece%n_rows)
+      if (round /= 0) then
+         allocate (character(len=piece%columns(size(piece%columns))%last + 1) :: text(round, 2))
+         do j = 1, (piece%n_rows - 1)/round + 2
+            call write_round(file%file, piece, digits, file%is_csv, j, text)
+         end do
+      end if
    end subroutine put_table
 
    !> status: STATUS_FILE when it could not be written.
@@ -251,26 +257,6 @@ contains
       end do
       call put_line(file, visible(line))
    end subroutine put_titles
-
-   !> Writes the rows by rounds: while the text of one is made, in pieces that threads share out, that of the one before is written.
-   !> What stands in the file depends neither on the rounds nor on the pieces.
-   subroutine write_rows(file, table, digits, csv)
-      type(text_file_t), intent(inout) :: file
-      type(table_t), intent(in) :: table
-      integer, intent(in) :: digits
-      logical, intent(in) :: csv
-      character(len=:), allocatable :: text(:, :)
-      integer(ip) :: pieces, round, i
-
-      pieces = 1
-      if (n_threads() > 1) pieces = PIECES_OF_THREAD*n_threads()
-      round = min(pieces*PIECE_ROWS, table%n_rows)
-      if (round == 0) return
-      allocate (character(len=table%columns(size(table%columns))%last + 1) :: text(round, 2))
-      do i = 1, (table%n_rows - 1)/round + 2
-         call write_round(file, table, digits, csv, i, text)
-      end do
-   end subroutine write_rows
 
    !> Makes the text of a round and writes that of the one before; there is none before the first, nor in the last.
    subroutine write_round(file, table, digits, csv, i_round, text)

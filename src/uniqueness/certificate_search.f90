@@ -100,12 +100,19 @@ contains
       type(place_t) :: now
       type(cut_t) :: cuts(ROUNDS)
       type(pencil_t) :: pencil
-      real(wp) :: z(size(form%a, 1)), reach, ceiling
+      real(wp) :: z(size(form%a, 1)), reach, ceiling, bound, slip, y
       integer :: round, n_cuts
-      integer(ip) :: failed
+      integer(ip) :: failed, i
 
       z = 0.0_wp
-      now%y = first_gamma(form, forms) + 0.5_wp*now%x
+      ! gamma for alpha = 1 at which both parts of R are alike, as an exponent.
+      y = 0.0_wp
+      if (allocated(forms%bound)) then
+         bound = sum([(forms%bound(i, i), i=1, form%n)])
+         slip = 0.5_wp*sum(form%a(form%n + 1:, form%n + 1:)**2)
+         if (bound > 0.0_wp .and. slip > 0.0_wp) y = 0.5_wp*log(slip/bound)
+      end if
+      now%y = y + 0.5_wp*now%x
       n_cuts = 0
       reach = FAR
       ceiling = huge(ceiling)
@@ -157,20 +164,6 @@ contains
          if (best%ratio <= before + (1 - BACK)*abs(before)) exit
       end do
    end subroutine polish
-
-   !> gamma for alpha = 1 at which both parts of R are alike, as an exponent.
-   pure real(wp) function first_gamma(form, forms) result(y)
-      type(friction_form_t), intent(in) :: form
-      type(forms_t), intent(in) :: forms
-      real(wp) :: bound, slip
-      integer(ip) :: i
-
-      y = 0.0_wp
-      if (.not. allocated(forms%bound)) return
-      bound = sum([(forms%bound(i, i), i=1, form%n)])
-      slip = 0.5_wp*sum(form%a(form%n + 1:, form%n + 1:)**2)
-      if (bound > 0.0_wp .and. slip > 0.0_wp) y = 0.5_wp*log(slip/bound)
-   end function first_gamma
 
    !> The cut of a vector z, of which the ratio at one place is known.
    !>

@@ -11,14 +11,14 @@
 !>
 !> and 2 |db_j| |du_j| <= nu (gamma (W dq_n)_j^2 + du_j^2/gamma), du = -A_t dq. So dq = 0 where, for some alpha and gamma > 0,
 !>
-!>     sym(diag(alpha 1, 1) A) - nu/2 (gamma W'W (+) 0 + A_t'A_t/gamma) > 0.                      certify_every_load
+!>     sym(diag(alpha 1, 1) A) - nu/2 (gamma W'W (+) 0 + A_t'A_t/gamma) > 0.
 !>
 !> The largest nu is looked for; up to it there is one solution for all loads, gaps and directions of slip. It falls as 1/sqrt(n)
 !> with the number n of points where friction is local, and does not fall where the average S_rho keeps its rho (Oden and Pires).
 !>
 !> With exact stick, two solutions of which no point moves against directions S (1 or -1) that are given, the open points too, have
 !> m = S_j in all points, and dq = 0 where sym(diag(alpha 1, 1) A [1 0; nu S W 1]) > 0: at most one solution moves that way
-!> everywhere (certify_way). That reaches further, since no point is taken to slip against its neighbours.
+!> everywhere. That reaches further, since no point is taken to slip against its neighbours.
 !>
 !> What is certified is the discrete problem, of this mesh; beyond the coefficient there may be one solution all the same.
 module atrito_one_solution
@@ -29,7 +29,7 @@ module atrito_one_solution
    use atrito_line_certificate, only: friction_form_t
    implicit none (type, external)
    private
-   public :: certify_every_load, certify_way, is_regular, MOST
+   public :: certify, is_regular, MOST
 
    real(wp), parameter :: MOST = 1.0e3_wp         !< what is certified up to here is not looked for beyond
 
@@ -37,37 +37,27 @@ contains
 
    !> The largest nu found up to which there is one solution, whatever the loads; 0 where there is none, the points depending on
    !> each other.
-   subroutine certify_every_load(form, nu, alpha)
+   !>
+   !> With a direction the same for solutions that move along it, or not at all, at every point. Exact stick is presumed.
+   subroutine certify(form, nu, alpha, direction)
       type(friction_form_t), intent(in) :: form
       real(wp), intent(out) :: nu
       real(wp), intent(out) :: alpha              !< of the proof
+      real(wp), intent(in), optional :: direction(:) !< (tangential unknowns) 1 or -1, or what is_regular takes
       type(forms_t) :: forms
       type(pencil_t) :: pencil
 
       nu = 0.0_wp
       alpha = 1.0_wp
       if (.not. form%is_definite) return
-      call every_load_forms(form, forms)
+      if (present(direction)) then
+         call given_way_forms(form, direction, forms)
+      else
+         call every_load_forms(form, forms)
+      end if
       call certified_factor(form, forms, MOST, nu, pencil)
       alpha = pencil%alpha
-   end subroutine certify_every_load
-
-   !> The same for solutions that move along given directions, or not at all, at every point. Exact stick is presumed.
-   subroutine certify_way(form, direction, nu, alpha)
-      type(friction_form_t), intent(in) :: form
-      real(wp), intent(in) :: direction(:)        !< (tangential unknowns) 1 or -1, or what is_regular takes
-      real(wp), intent(out) :: nu
-      real(wp), intent(out) :: alpha              !< of the proof
-      type(forms_t) :: forms
-      type(pencil_t) :: pencil
-
-      nu = 0.0_wp
-      alpha = 1.0_wp
-      if (.not. form%is_definite) return
-      call given_way_forms(form, direction, forms)
-      call certified_factor(form, forms, MOST, nu, pencil)
-      alpha = pencil%alpha
-   end subroutine certify_way
+   end subroutine certify
 
    !> Whether a state is proved to be regular for this nu and all smaller ones, given one alpha to try it with.
    !>

@@ -97,12 +97,21 @@ contains
       integer(ip), intent(in) :: k
       type(random_t), intent(inout) :: random
       type(contact_solution_t), intent(out) :: trial
-      real(wp) :: share(4)
-      integer(ip) :: choice, i
+      real(wp) :: share(4), pressure
+      integer(ip) :: choice, i, j
 
       call normal_bounds(line, problem, trial%bounds, trial%state)
       associate (n => problem%n_normal, state => trial%state)
-         where (trial%bounds%lower(:n) > -HUGE_REAL) state%q(:n) = usual_pressure(problem, first)*problem%weight(:n)
+         ! A pressure of the size of those of the problem [F/L^2].
+         pressure = maxval([0.0_wp, first%state%q(:problem%n_normal)/problem%weight(:problem%n_normal)])
+         if (pressure <= 0.0_wp) then
+            ! nothing touches: what would press a point back to where it was
+            do j = 1, problem%n_normal
+               if (.not. problem%c(j, j) > 0.0_wp) cycle
+               pressure = max(pressure, abs(problem%g0(j))/problem%c(j, j)/problem%weight(j))
+            end do
+         end if
+         where (trial%bounds%lower(:n) > -HUGE_REAL) state%q(:n) = pressure*problem%weight(:n)
          trial%history%tangential_of = tangential_of(line, n)
          trial%tau = bound_of_state(line, trial)
          call set_friction_bounds(line, problem, trial%tau, trial%bounds, state)
@@ -140,21 +149,6 @@ contains
          choice = 0
       end select
    end function choice_of
-
-   !> A pressure of the size of those of the problem [F/L^2].
-   pure real(wp) function usual_pressure(problem, first) result(pressure)
-      type(bound_qp_t), intent(in) :: problem
-      type(contact_solution_t), intent(in) :: first
-      integer(ip) :: i
-
-      pressure = maxval([0.0_wp, first%state%q(:problem%n_normal)/problem%weight(:problem%n_normal)])
-      if (pressure > 0.0_wp) return
-      ! nothing touches: what would press a point back to where it was
-      do i = 1, problem%n_normal
-         if (.not. problem%c(i, i) > 0.0_wp) cycle
-         pressure = max(pressure, abs(problem%g0(i))/problem%c(i, i)/problem%weight(i))
-      end do
-   end function usual_pressure
 
    !> Between 0 and 1, neither of them.
    real(wp) function next(random)

@@ -19,7 +19,7 @@ module atrito_state_index
    use atrito_kinds, only: ip, wp, HUGE_REAL
    use atrito_line_certificate, only: line_certificate_t, NOT_ASKED
    use atrito_newton, only: jacobian_of_state
-   use atrito_one_solution, only: certify_way, is_regular
+   use atrito_one_solution, only: certify, is_regular
    implicit none (type, external)
    private
    public :: index_of_solution, meet_state
@@ -33,7 +33,7 @@ contains
    !>
    !>     1. points on the edge of their state: no index
    !>     2. the state was met before, or a certificate covers nu: its sign
-   !>     3. one Cholesky factor proves that det M has no zero from 0 to nu: 1 (is_regular, then another alpha by certify_way)
+   !>     3. one Cholesky factor proves that det M has no zero from 0 to nu: 1 (is_regular, then another alpha by certify)
    !>     4. det M itself: slipping forces are eliminated, whose rows are sparse; the rest by LU with its exchanges of rows
    integer(ip) function index_of_solution(problem, line, solution, is_known, certificate) result(index_of)
       type(bound_qp_t), intent(in) :: problem     !< C and G
@@ -57,7 +57,7 @@ contains
          end if
          if (certificate%sign_of == NOT_ASKED .and. .not. allocated(certificate%way)) then
             certificate%way = share               ! elastic stick: an alpha that may serve states to come, too
-            call certify_way(certificate%form, share, up_to_nu, certificate%alpha)
+            call certify(certificate%form, up_to_nu, certificate%alpha, share)
             if (up_to_nu >= nu) certificate%sign_of = 1
          end if
       end associate
@@ -113,8 +113,20 @@ contains
       type(line_certificate_t), intent(inout) :: certificate
       real(wp) :: share(problem%m - problem%n_normal)
       logical :: is_new
+      integer(ip) :: i
 
-      share = share_of(problem, line, solution)
+      ! m of a state: by how much of its bound the friction of a point changes with it. 1 and -1 where it slips; q over the bound
+      ! where it sticks elastically by the law of Oden and Pires, whose compliance falls with the bound; else 0.
+      associate (n => problem%n_normal)
+         share = merge(1.0_wp, 0.0_wp, solution%state%state(n + 1:) == AT_UPPER) &
+                 - merge(1.0_wp, 0.0_wp, solution%state%state(n + 1:) == AT_LOWER)
+         do i = n + 1, problem%m
+            associate (j => line%point(i))
+               if (solution%state%state(i) /= FREE .or. line%law(j)%kind /= FRICTION_NONLOCAL) cycle
+               if (solution%bounds%d(i) > 0.0_wp) share(i - n) = solution%state%q(i)/(line%weight(j)*solution%tau(j))
+            end associate
+         end do
+      end associate
       associate (state => solution%state%state, d => solution%bounds%d)
          is_new = .not. allocated(certificate%state)
          if (.not. is_new) is_new = any(certificate%state /= state) .or. any(abs(certificate%compliance - d) > 0.0_wp) &
@@ -127,27 +139,6 @@ contains
       certificate%sign_of = NOT_ASKED
       certificate%contraction = -1.0_wp
    end subroutine meet_state
-
-   !> m of a state: by how much of its bound the friction of a point changes with it. 1 and -1 where it slips; q over the bound
-   !> where it sticks elastically by the law of Oden and Pires, whose compliance falls with the bound; else 0.
-   pure function share_of(problem, line, solution) result(share)
-      type(bound_qp_t), intent(in) :: problem
-      type(contact_line_t), intent(in) :: line
-      type(contact_solution_t), intent(in) :: solution
-      real(wp) :: share(problem%m - problem%n_normal)
-      integer(ip) :: i
-
-      associate (n => problem%n_normal)
-         share = merge(1.0_wp, 0.0_wp, solution%state%state(n + 1:) == AT_UPPER) &
-                 - merge(1.0_wp, 0.0_wp, solution%state%state(n + 1:) == AT_LOWER)
-         do i = n + 1, problem%m
-            associate (j => line%point(i))
-               if (solution%state%state(i) /= FREE .or. line%law(j)%kind /= FRICTION_NONLOCAL) cycle
-               if (solution%bounds%d(i) > 0.0_wp) share(i - n) = solution%state%q(i)/(line%weight(j)*solution%tau(j))
-            end associate
-         end do
-      end associate
-   end function share_of
 
    !> Takes slipping forces out of the matrix: their rows q -+ w tau = 0 have few entries, and a positive one on the diagonal.
    pure subroutine eliminate(slips, matrix)

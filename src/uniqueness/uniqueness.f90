@@ -19,7 +19,7 @@ module atrito_uniqueness
    use atrito_friction_law, only: FRICTION_NONE
    use atrito_kinds, only: ip, wp
    use atrito_line_certificate, only: line_certificate_t
-   use atrito_one_solution, only: certify_every_load, certify_way, MOST
+   use atrito_one_solution, only: certify, MOST
    use atrito_results, only: uniqueness_t
    use atrito_row_entries, only: build_constraint_rows
    use atrito_sparse_certificate, only: certify_sparse
@@ -52,7 +52,7 @@ contains
          allocate (certificate%form)
          call build_form(problem, line, certificate%form, why_not)
          if (len(why_not) == 0) then
-            call certify_every_load(certificate%form, nu, certificate%alpha)
+            call certify(certificate%form, nu, certificate%alpha)
             known%up_to_nu = rounded_down(nu)
             if (.not. nu > 0.0_wp) why_not = 'contact points depend on each other'
          end if
@@ -114,6 +114,7 @@ contains
       type(uniqueness_t), intent(inout) :: uniqueness  !< of certify_line
       character(len=:), allocatable :: why_not
       logical :: is_along
+      real(wp) :: direction(problem%m - problem%n_normal)
 
       if (is_certified(uniqueness)) uniqueness%index = 1
       if (is_certified(uniqueness) .or. .not. solution%converged .or. len_trim(uniqueness%why_not) > 0) return
@@ -123,8 +124,15 @@ contains
       end if
       call meet_state(problem, line, solution, certificate)
       is_along = .false.
-      if (.not. has_elastic_stick(line)) then
-         if (is_last .or. .not. allocated(certificate%way)) call keep_way(way_of(problem, solution, certificate%share), certificate)
+      ! Not where some law has elastic slip before its full friction.
+      if (all(line%law%kind == FRICTION_NONE .or. (line%law%eps <= 0.0_wp .and. line%law%compliance <= 0.0_wp))) then
+         ! The directions along which a solution moves; points that stick may be taken to go along with most of the others.
+         direction = certificate%share
+         associate (r => solution%state%r(problem%n_normal + 1:))
+            where (solution%bounds%upper(problem%n_normal + 1:) <= 0.0_wp) direction = sign(1.0_wp, r)
+            where (abs(direction) <= 0.0_wp) direction = merge(1.0_wp, -1.0_wp, sum(direction) >= 0.0_wp)
+         end associate
+         if (is_last .or. .not. allocated(certificate%way)) call keep_way(direction, certificate)
          if (is_last) uniqueness%same_way_up_to_nu = certificate%way_up_to_nu
          associate (slip => certificate%share, way => certificate%way)
             is_along = certificate%way_up_to_nu >= uniqueness%nu .and. all(slip*way >= 0.0_wp)
@@ -143,7 +151,7 @@ contains
          if (all(certificate%way*way > 0.0_wp)) return
       end if
       certificate%way = way
-      call certify_way(certificate%form, way, certificate%way_up_to_nu, certificate%alpha)
+      call certify(certificate%form, certificate%way_up_to_nu, certificate%alpha, way)
       certificate%way_up_to_nu = rounded_down(certificate%way_up_to_nu)
    end subroutine keep_way
 
@@ -171,13 +179,6 @@ contains
       is_certified = .not. uniqueness%nu > uniqueness%up_to_nu
    end function is_certified
 
-   !> Whether some law has elastic slip before its full friction.
-   pure logical function has_elastic_stick(line)
-      type(contact_line_t), intent(in) :: line
-
-      has_elastic_stick = any(line%law%kind /= FRICTION_NONE .and. (line%law%eps > 0.0_wp .or. line%law%compliance > 0.0_wp))
-   end function has_elastic_stick
-
    !> Three digits of a number, none larger: what is told is certified, whatever the last digits of the search.
    pure real(wp) function rounded_down(x)
       real(wp), intent(in) :: x                   !< >= 0
@@ -190,19 +191,5 @@ contains
       end associate
       read (text, '(es9.2)') rounded_down
    end function rounded_down
-
-   !> The directions along which a solution moves; points that stick may be taken to go along with most of the others.
-   pure function way_of(problem, solution, slip) result(direction)
-      type(bound_qp_t), intent(in) :: problem
-      type(contact_solution_t), intent(in) :: solution
-      real(wp), intent(in) :: slip(:)             !< 1 or -1 of those that slip, 0 of the others
-      real(wp) :: direction(problem%m - problem%n_normal)
-
-      direction = slip
-      associate (r => solution%state%r(problem%n_normal + 1:))
-         where (solution%bounds%upper(problem%n_normal + 1:) <= 0.0_wp) direction = sign(1.0_wp, r)
-         where (abs(direction) <= 0.0_wp) direction = merge(1.0_wp, -1.0_wp, sum(direction) >= 0.0_wp)
-      end associate
-   end function way_of
 
 end module atrito_uniqueness

@@ -26,9 +26,9 @@ module atrito_stability_limit
    use atrito_series_reports, only: begin_series, report_of_limit
    use atrito_series, only: claim_output, find_origin, find_observed, begin_pictures, print_closing, seconds_since
    use atrito_solve, only: solve_options_t
-   use atrito_stability_plot, only: write_stability_plots
    use atrito_restart_state, only: warm_start_t
    use atrito_run, only: take_threads, solve_options, agree_on_outcome
+   use atrito_study_plot, only: write_stability_plots
    use atrito_sweep_plan, only: read_range
    use atrito_stability_result, only: stability_t, stability_value_t, CODE_NOT_RUN
    use atrito_stability_search, only: search_t, begin_search, next_step, suggest_root, record_balance, record_solution, &

@@ -90,15 +90,13 @@ module atrito_results
       type(string_t), allocatable :: left_out(:)    !< sentences: what this scene does not need
    end type scene_t
 
-   !> Resultants about the origin [F], [F L].
+   !> Resultants along 1 and 2 [F], and their moments about the origin [F L].
    type :: balance_t
-      real(wp) :: applied(2) = 0.0_wp, reactions(2) = 0.0_wp !< upon the bodies
-      real(wp) :: applied_moment = 0.0_wp, reaction_moment = 0.0_wp !< of them
-      real(wp) :: rigid(2) = 0.0_wp                 !< force of the bodies' contact upon rigid surfaces
-      real(wp) :: rigid_moment = 0.0_wp             !< of it, with what is left between the sides of all contact (W-SUMS)
+      real(wp) :: applied(3) = 0.0_wp, reactions(3) = 0.0_wp !< upon the bodies
+      real(wp) :: rigid(3) = 0.0_wp                 !< of the bodies' contact upon rigid surfaces; the moment with what is left
+      !                                             between the sides of all contact (W-SUMS)
       logical :: is_revolved = .false.              !< forces along 1 are radial: they and the moments balance in themselves
-      real(wp) :: rows(2) = 0.0_wp                  !< of the bodies upon springs to the ground and equations
-      real(wp) :: rows_moment = 0.0_wp              !< of them about the origin
+      real(wp) :: rows(3) = 0.0_wp                  !< of the bodies upon springs to the ground and equations
    end type balance_t
 
    !> A row of bodies.tab: the rigid motion that comes nearest to the displacements of a body, and what acts upon it.

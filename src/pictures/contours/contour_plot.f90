@@ -61,21 +61,6 @@ contains
       layout%height = layout%bottom + layout%n(2) + TOP(form)
    end function make_layout
 
-   !> Ranges, terminal, margins and axes.
-   subroutine put_layout(plots, layout)
-      type(plots_t), intent(inout) :: plots
-      type(layout_t), intent(in) :: layout
-
-      call put(plots, 'set xrange '//range_text(layout%window(1))//LF//'set yrange '//range_text(layout%window(2))//LF// &
-               'width = '//to_text(WIDTH)//'.0; height = '//to_text(layout%height)//'.0   # of the picture in pixels'//LF// &
-               'across(pixels) = pixels/width'//LF//'up(pixels) = pixels/height')
-      call put_terminal(plots, 'int(width),int(height)')
-      call put(plots, 'set lmargin at screen across('//to_text(layout%left)//'); set rmargin at screen across('// &
-               to_text(layout%left + layout%n(1))//')'//LF//'set bmargin at screen up('//to_text(layout%bottom)// &
-               '); set tmargin at screen up('//to_text(layout%bottom + layout%n(2))//')'//LF//'set clip two; unset key')
-      call put_ticks(plots, span(layout%window(1))/layout%n(1))
-   end subroutine put_layout
-
    !> Place of the bar, and what it is of: above a bar that stands, where long numbers at the bar are not in its way.
    subroutine put_bar_place(plots, layout, what)
       type(plots_t), intent(inout) :: plots
@@ -180,7 +165,7 @@ contains
       type(layout_t), intent(in) :: layout
       type(field_t), intent(in) :: field
       type(bar_t), intent(in) :: bar
-      character(len=:), allocatable :: name, title
+      character(len=:), allocatable :: name, title, text
 
       name = trim(field%contour%name)
       title = trim(field%contour%title)
@@ -191,31 +176,22 @@ contains
                'scale = '//to_text(drawing%scale, 15)// &
                '   # of the displacements, also of the raster: another one needs a run with --plot-scale'//LF// &
                'heading = '//quoted(drawing%heading))
-      call put_layout(plots, layout)
-      if (field%contour%of_elements) title = title//', share of each element, together '//percent_of(drawing%results)
+      ! Ranges, terminal, margins and axes.
+      call put(plots, 'set xrange '//range_text(layout%window(1))//LF//'set yrange '//range_text(layout%window(2))//LF// &
+               'width = '//to_text(WIDTH)//'.0; height = '//to_text(layout%height)//'.0   # of the picture in pixels'//LF// &
+               'across(pixels) = pixels/width'//LF//'up(pixels) = pixels/height')
+      call put_terminal(plots, 'int(width),int(height)')
+      call put(plots, 'set lmargin at screen across('//to_text(layout%left)//'); set rmargin at screen across('// &
+               to_text(layout%left + layout%n(1))//')'//LF//'set bmargin at screen up('//to_text(layout%bottom)// &
+               '); set tmargin at screen up('//to_text(layout%bottom + layout%n(2))//')'//LF//'set clip two; unset key')
+      call put_ticks(plots, span(layout%window(1))/layout%n(1))
+      ! What the shares of the elements are of: the bound of the error, or the estimate.
+      text = to_text(drawing%results%error_estimate, 3)//' %'
+      if (drawing%results%error_bound%exists) text = 'at most '//to_text(drawing%results%error_bound%percent, 3)//' %'
+      if (field%contour%of_elements) title = title//', share of each element, together '//text
       call put(plots, 'set label 1 heading."\n'//title//'; '//displacement_text(drawing)// &
                '" at screen 0.5, screen up(height - 20) center noenhanced')
-      call put_bar(plots, layout, field, bar)
-      if (field%is_shown) call put_extremes(plots, layout, field, bar)
-      call put_curves(plots, drawing, layout)
-   end subroutine write_script
-
-   !> What the shares of the elements are of: the bound of the error, or the estimate.
-   pure function percent_of(results) result(text)
-      type(results_t), intent(in) :: results
-      character(len=:), allocatable :: text
-
-      text = to_text(results%error_estimate, 3)//' %'
-      if (results%error_bound%exists) text = 'at most '//to_text(results%error_bound%percent, 3)//' %'
-   end function percent_of
-
-   !> Colours, range and marks of the bar.
-   subroutine put_bar(plots, layout, field, bar)
-      type(plots_t), intent(inout) :: plots
-      type(layout_t), intent(in) :: layout
-      type(field_t), intent(in) :: field
-      type(bar_t), intent(in) :: bar
-
+      ! Colours, range and marks of the bar.
       call put(plots, 'unit = 1e'//to_text(bar%exponent)//LF//'set palette maxcolors '//to_text(bar%n_bands*levels_of(bar))// &
                ' defined ('// &
                palette_text(bar, field%contour%is_signed)//')'//LF// &
@@ -224,7 +200,9 @@ contains
       if (bar%is_flat) call put(plots, 'set cbtics ('//to_text(field%range%low, DIGITS)//'/unit)')
       call put_bar_place(plots, layout, trim(field%contour%symbol)//' ['//power_text(bar%exponent)// &
                          trim(field%contour%dimension)//']')
-   end subroutine put_bar
+      if (field%is_shown) call put_extremes(plots, layout, field, bar)
+      call put_curves(plots, drawing, layout)
+   end subroutine write_script
 
    !> Marks at the largest and at the least value, and lines that say where these are.
    subroutine put_extremes(plots, layout, field, bar)

@@ -149,12 +149,26 @@ contains
       character(len=*), intent(in) :: resultant
       type(symbols_t), intent(inout) :: symbols
       real(wp), allocatable :: density(:, :), places(:, :)
-      real(wp) :: largest, share(2), arrow(2)
+      real(wp) :: largest, share(2), arrow(2), x(2), value(3), factor
       integer(ip), allocatable :: elements(:)
-      integer(ip) :: i
+      integer(ip) :: i, j, e
 
       associate (mesh => symbols%model%mesh)
-         call sum_densities(symbols, density)
+         ! The force per volume in the middle of each element.
+         allocate (density(2, symbols%model%mesh%n_elements), source=0.0_wp)
+         associate (loads => symbols%model%steps(symbols%step)%element_loads)
+            do j = 1, loads%n
+               e = loads%element(j)
+               factor = load_factor(symbols, j)
+               if (loads%kind(j) == LOAD_BODY) then
+                  density(:, e) = density(:, e) + factor*loads%value(:2, j)
+               else if (loads%kind(j) == LOAD_LINEAR) then
+                  x = mean_of(symbols%model%mesh, symbols%model%mesh%x, e)
+                  value = loads%value(:3, j)
+                  density(:, e) = density(:, e) + factor*[value(1)*x(1) + value(2)*x(2), value(2)*x(1) + value(3)*x(2)]
+               end if
+            end do
+         end associate
          largest = largest_length(density)
          if (.not. largest > 0.0_wp) return
          elements = pack([(i, i=1, mesh%n_elements)], abs(density(1, :)) + abs(density(2, :)) > 0.0_wp)
@@ -172,29 +186,6 @@ contains
          end do
       end associate
    end subroutine put_body_loads
-
-   !> The force per volume in the middle of each element.
-   subroutine sum_densities(symbols, density)
-      type(symbols_t), intent(in) :: symbols
-      real(wp), allocatable, intent(out) :: density(:, :)   !< (2, n_elements) [F/L^3]
-      real(wp) :: x(2), value(3), factor
-      integer(ip) :: i, e
-
-      allocate (density(2, symbols%model%mesh%n_elements), source=0.0_wp)
-      associate (loads => symbols%model%steps(symbols%step)%element_loads)
-         do i = 1, loads%n
-            e = loads%element(i)
-            factor = load_factor(symbols, i)
-            if (loads%kind(i) == LOAD_BODY) then
-               density(:, e) = density(:, e) + factor*loads%value(:2, i)
-            else if (loads%kind(i) == LOAD_LINEAR) then
-               x = mean_of(symbols%model%mesh, symbols%model%mesh%x, e)
-               value = loads%value(:3, i)
-               density(:, e) = density(:, e) + factor*[value(1)*x(1) + value(2)*x(2), value(2)*x(1) + value(3)*x(2)]
-            end if
-         end do
-      end associate
-   end subroutine sum_densities
 
    !> The mean over the corners of an element.
    pure function mean_of(mesh, values, element) result(mean)
@@ -239,9 +230,23 @@ contains
       type(symbols_t), intent(inout) :: symbols
       type(loaded_faces_t) :: faces
       real(wp) :: traction(2)
-      integer(ip) :: i, k
+      integer(ip) :: i, k, j, key, at
+      type(id_map_t) :: known_faces
+      logical :: known
 
-      call list_faces(symbols, faces)
+      ! Each face once, with its loads one behind the other.
+      associate (loads => symbols%model%steps(symbols%step)%element_loads)
+         allocate (faces%load(loads%n), faces%next(loads%n), source=0_ip)
+         do j = 1, loads%n
+            if (is_on_volume(loads%kind(j))) cycle
+            key = MOST_SIDES*(loads%element(j) - 1) + loads%face(j)
+            call add_id(known_faces, key, faces%n + 1, known)
+            at = find_id(known_faces, key)
+            if (known) faces%next(j) = faces%load(at)
+            faces%load(at) = j
+            faces%n = max(faces%n, at)
+         end do
+      end associate
       do i = 1, faces%n
          do k = -1, 1
             traction = traction_on(symbols, faces, i, real(k, wp))
@@ -252,28 +257,6 @@ contains
       call put_lines_of_ends(faces, symbols)
       call put_arrows(faces, legend, symbols)
    end subroutine put_face_loads
-
-   !> Each face once, with its loads one behind the other.
-   subroutine list_faces(symbols, faces)
-      type(symbols_t), intent(in) :: symbols
-      type(loaded_faces_t), intent(out) :: faces
-      type(id_map_t) :: known_faces
-      integer(ip) :: i, key, at
-      logical :: known
-
-      associate (loads => symbols%model%steps(symbols%step)%element_loads)
-         allocate (faces%load(loads%n), faces%next(loads%n), source=0_ip)
-         do i = 1, loads%n
-            if (is_on_volume(loads%kind(i))) cycle
-            key = MOST_SIDES*(loads%element(i) - 1) + loads%face(i)
-            call add_id(known_faces, key, faces%n + 1, known)
-            at = find_id(known_faces, key)
-            if (known) faces%next(i) = faces%load(at)
-            faces%load(at) = i
-            faces%n = max(faces%n, at)
-         end do
-      end associate
-   end subroutine list_faces
 
    !> The force per area at a place of a face.
    pure function traction_on(symbols, faces, i, t) result(traction)

@@ -43,6 +43,9 @@ contains
       type(symbols_t), intent(inout) :: symbols     !< its step is read; get blocks
       logical, allocatable :: held(:, :)            ! (2, n_nodes)
       real(wp), allocatable :: moved(:, :), outward(:, :)
+      type(supports_t) :: supports
+      real(wp) :: largest, from(2), arrow(2)
+      integer(ip) :: i
 
       allocate (held(2, symbols%model%mesh%n_nodes), source=.false.)
       allocate (moved(2, symbols%model%mesh%n_nodes), source=0.0_wp)
@@ -56,7 +59,20 @@ contains
       outward = find_outward(symbols%model%mesh)
       call put_fixed(held, outward, symbols)
       call put_rollers(held, outward, symbols)
-      call put_moved(moved, outward, symbols)
+      ! Arrows along prescribed displacements that are not 0.
+      largest = largest_length(moved)
+      if (largest > 0.0_wp) then
+         call take_nodes(pack([(i, i=1, size(moved, 2, kind=ip))], abs(moved(1, :)) + abs(moved(2, :)) > 0.0_wp), symbols, supports)
+         call begin_block(symbols, 'prescribed displacements', ':5:6', ARROW_LOOKS//MOVED_LOOKS// &
+                          ' title "prescribed displacement, up to '//to_text(largest, 4)//' [L]"')
+         do i = 1, size(supports%node, kind=ip)
+            associate (node => supports%node(i))
+               call arrow_at(supports%place(:, i), moved(:, node)/largest, outward(:2, node), LONGEST_ARROW*symbols%pixel, &
+                             from, arrow)
+               call put_arrow(symbols, symbols%u(:, node), from, arrow)
+            end associate
+         end do
+      end if
    end subroutine put_supports
 
    !> What is prescribed at nodes; rotations of reference nodes are left out.
@@ -108,10 +124,25 @@ contains
       type(symbols_t), intent(inout) :: symbols
       type(supports_t) :: rollers(3)
       integer :: k, i
+      integer(ip), allocatable :: rows(:), nodes(:)
+      real(wp) :: along(2)
+      integer(ip) :: j
 
       call find_held(HELD_1, held, outward, symbols, rollers(1))
       call find_held(HELD_2, held, outward, symbols, rollers(2))
-      call find_inclined(outward, symbols, rollers(3))
+      ! Supports along directions that are no axis, thinned.
+      associate (all_rows => symbols%model%bilateral)
+         rows = pack([(j, j=1, all_rows%n)], [(all_rows%kind(j) == ROW_SUPPORT, j=1, all_rows%n)])
+         allocate (nodes(0))
+         ! not the nodes of the rows: in a row others carry the motion of a reference node
+         if (size(rows) > 0) nodes = symbols%model%inclined%node(:size(rows))
+         call take_nodes(nodes, symbols, rollers(3))
+         do j = 1, size(rollers(3)%node, kind=ip)
+            along = all_rows%vector(:, all_rows%first(rows(findloc(nodes, rollers(3)%node(j), dim=1))))
+            rollers(3)%ground(:, j) = along/norm2(along)
+            if (dot_product(along, outward(:2, rollers(3)%node(j))) < 0.0_wp) rollers(3)%ground(:, j) = -rollers(3)%ground(:, j)
+         end do
+      end associate
       if (sum([(size(rollers(k)%node), k=1, 3)]) == 0) return
       call begin_block(symbols, 'supports in one direction', '', LOOKS)
       do k = 1, 3
@@ -181,29 +212,6 @@ contains
       end if
    end function ground_of
 
-   !> Supports along directions that are no axis, thinned.
-   subroutine find_inclined(outward, symbols, supports)
-      real(wp), intent(in) :: outward(:, :)
-      type(symbols_t), intent(in) :: symbols
-      type(supports_t), intent(out) :: supports
-      integer(ip), allocatable :: rows(:), nodes(:)
-      real(wp) :: along(2)
-      integer(ip) :: i
-
-      associate (all_rows => symbols%model%bilateral)
-         rows = pack([(i, i=1, all_rows%n)], [(all_rows%kind(i) == ROW_SUPPORT, i=1, all_rows%n)])
-         allocate (nodes(0))
-         ! not the nodes of the rows: in a row others carry the motion of a reference node
-         if (size(rows) > 0) nodes = symbols%model%inclined%node(:size(rows))
-         call take_nodes(nodes, symbols, supports)
-         do i = 1, size(supports%node, kind=ip)
-            along = all_rows%vector(:, all_rows%first(rows(findloc(nodes, supports%node(i), dim=1))))
-            supports%ground(:, i) = along/norm2(along)
-            if (dot_product(along, outward(:2, supports%node(i))) < 0.0_wp) supports%ground(:, i) = -supports%ground(:, i)
-         end do
-      end associate
-   end subroutine find_inclined
-
    !> A line through places so many pixels towards the ground and across.
    subroutine put_shape(symbols, supports, i, shape)
       type(symbols_t), intent(inout) :: symbols
@@ -220,27 +228,5 @@ contains
       end associate
       call put_stroke(symbols, symbols%u(:, supports%node(i)), places)
    end subroutine put_shape
-
-   !> Arrows along prescribed displacements that are not 0.
-   subroutine put_moved(moved, outward, symbols)
-      real(wp), intent(in) :: moved(:, :)           !< (2, n_nodes) [L]
-      real(wp), intent(in) :: outward(:, :)
-      type(symbols_t), intent(inout) :: symbols
-      type(supports_t) :: supports
-      real(wp) :: largest, from(2), arrow(2)
-      integer(ip) :: i
-
-      largest = largest_length(moved)
-      if (.not. largest > 0.0_wp) return
-      call take_nodes(pack([(i, i=1, size(moved, 2, kind=ip))], abs(moved(1, :)) + abs(moved(2, :)) > 0.0_wp), symbols, supports)
-      call begin_block(symbols, 'prescribed displacements', ':5:6', ARROW_LOOKS//MOVED_LOOKS// &
-                       ' title "prescribed displacement, up to '//to_text(largest, 4)//' [L]"')
-      do i = 1, size(supports%node, kind=ip)
-         associate (node => supports%node(i))
-            call arrow_at(supports%place(:, i), moved(:, node)/largest, outward(:2, node), LONGEST_ARROW*symbols%pixel, from, arrow)
-            call put_arrow(symbols, symbols%u(:, node), from, arrow)
-         end associate
-      end do
-   end subroutine put_moved
 
 end module atrito_support_symbols

@@ -144,7 +144,7 @@ contains
       type(range_t), intent(in) :: window(2)        !< where the bodies are [L]
       real(wp), allocatable, intent(out) :: ticks(:, :)   !< (4, n) place and unit normal
       real(wp), allocatable :: share(:, :)          ! of a piece that lies in the window, from and to
-      real(wp) :: length
+      real(wp) :: length, d(2)
       integer(ip), allocatable :: n(:)              ! normals of a piece
       integer(ip) :: i, k, total
 
@@ -158,29 +158,20 @@ contains
       allocate (ticks(4, sum(n)))
       total = 0
       do i = 1, strip%n
+         ! A piece is the parabola through its ends x1, x3 and its middle x2,
+         !    x(t) = (1 - t)(1 - 2t) x1 + 4t(1 - t) x2 + t(2t - 1) x3,    0 <= t <= 1,
+         ! and its normal is its derivative turned by 90 degrees, to the side on which the outside is.
          do k = 1, n(i)
             total = total + 1
-            ticks(:, total) = tick_at(strip, i, share(1, i) + (share(2, i) - share(1, i))*(k - 0.5_wp)/n(i))
+            associate (x => strip%x(:, :, i), t => share(1, i) + (share(2, i) - share(1, i))*(k - 0.5_wp)/n(i))
+               d = (4*t - 3)*x(:, 1) + (4 - 8*t)*x(:, 2) + (4*t - 1)*x(:, 3)
+               ticks(:2, total) = (1 - t)*(1 - 2*t)*x(:, 1) + 4*t*(1 - t)*x(:, 2) + t*(2*t - 1)*x(:, 3)
+               ticks(3:, total) = strip%side(i)*[-d(2), d(1)]/max(norm2(d), tiny(1.0_wp))
+            end associate
          end do
       end do
       ticks = ticks(:, pack([(i, i=1, total)], thinned(ticks(:2, :), spacing)))
    end subroutine list_ticks
-
-   !> The place at a share t of a piece, and its normal. The piece is the parabola through its ends x1, x3 and its middle x2,
-   !>    x(t) = (1 - t)(1 - 2t) x1 + 4t(1 - t) x2 + t(2t - 1) x3,
-   !> and the normal is its derivative turned by 90 degrees, to the side on which the outside is.
-   pure function tick_at(strip, i, t) result(tick)
-      type(strip_t), intent(in) :: strip
-      integer(ip), intent(in) :: i
-      real(wp), intent(in) :: t                     !< 0..1
-      real(wp) :: tick(4), d(2)
-
-      associate (x => strip%x(:, :, i))
-         tick(:2) = (1 - t)*(1 - 2*t)*x(:, 1) + 4*t*(1 - t)*x(:, 2) + t*(2*t - 1)*x(:, 3)
-         d = (4*t - 3)*x(:, 1) + (4 - 8*t)*x(:, 2) + (4*t - 1)*x(:, 3)
-         tick(3:) = strip%side(i)*[-d(2), d(1)]/max(norm2(d), tiny(1.0_wp))
-      end associate
-   end function tick_at
 
    !> From which share of a straight line on to which it lies in a window; the second is less than the first where nowhere.
    !>
