@@ -16,7 +16,8 @@ module atrito_motion_rows
    use atrito_sparse_rows, only: sparse_rows_t
    implicit none (type, external)
    private
-   public :: motion_rows_t, build_motion_rows, note_digits, join_motions, contact_digit_error, DIGIT_ERRORS, MOST_PART
+   public :: motion_rows_t, build_motion_rows, part_from_held, note_digits, join_motions, contact_digit_error
+   public :: DIGIT_ERRORS, MOST_PART
 
    !> G by the entries of its rows, and h.
    type, extends(sparse_rows_t) :: motion_rows_t
@@ -68,21 +69,22 @@ contains
       n = motions%first(motions%n + 1) - 1
       motions%column = motions%column(:n)
       motions%value = motions%value(:n)
-      if (line%n_bilateral > 0) call part_from_held(line, first_motion, motions)
    end subroutine build_motion_rows
 
-   !> Bodies that supports along axes of their own hold, or springs, have no part in the rows of others, as those have none that
-   !> supports along x and y hold: such forces balance whatever acts, and all motions that anybody asks for are 0 there. So bodies
-   !> on one foundation are judged one by one, each by its own forces.
-   pure subroutine part_from_held(line, first_motion, motions)
+   !> Bodies that supports along axes of their own hold, or ties, springs, lose their part in the rows of others, as those have none
+   !> that supports along x and y hold: such forces balance whatever acts on them, and no motion that proves anything moves them. So
+   !> bodies on one foundation are judged one by one, each by its own forces. These rows are for balances and their proofs alone.
+   pure subroutine part_from_held(fem, line, motions)
+      type(fem_t), intent(in) :: fem                !< bodies with their rigid modes
       type(contact_line_t), intent(in) :: line      !< which unknowns are of supports
-      integer(ip), intent(in) :: first_motion(:)    !< (bodies + 1)
-      type(motion_rows_t), intent(inout) :: motions !< entries of other rows on motions of these bodies are left out
+      type(motion_rows_t), intent(inout) :: motions !< as built; entries of other rows on motions of these bodies are left out
       real(wp), parameter :: OF_ITS_OWN = 1.0e-3_wp !< part of a row that the rows before it do not have
-      real(wp) :: basis(MOST_MODES, MOST_MODES, size(first_motion)), row(MOST_MODES), length
-      integer(ip) :: rank(size(first_motion)), first(motions%n + 1), i, k
+      real(wp) :: basis(MOST_MODES, MOST_MODES, fem%bodies%n), row(MOST_MODES), length
+      integer(ip) :: first_motion(fem%bodies%n + 1), rank(fem%bodies%n), first(motions%n + 1), i, k
       logical :: is_of_support(motions%n), keeps(size(motions%column))
 
+      if (line%n_bilateral == 0) return
+      first_motion = first_motions(fem%bodies)
       rank = 0
       is_of_support = line%point > line%n - line%n_bilateral .and. motions%first(2:) > motions%first(:motions%n)
       do i = 1, motions%n
