@@ -197,7 +197,7 @@ contains
       call note_digits(data%fem, data%rows, data%line, rows)
       if (.not. any(rows%doubt > 0.0_wp)) return
       associate (v => solution%inner%motion)
-         if (.not. sum(v**2) > 0.0_wp) return
+         if (.not. abs(dot_product(v, rows%work)) > 0.0_wp) return   ! loads that do no work lose none
          if (.not. is_within_digits(data, rows, v, merge(0.0_wp, solution%state%q, data%line%has_friction))) return
          call take_out(data, v*(dot_product(v, rows%work)/sum(v**2)))
       end associate
