@@ -30,7 +30,8 @@ module atrito_goldfarb_idnani
    !> While it is driven an unknown is neither free nor at a bound: its force is given by the drive, and its multiplier, which grows
    !> from zero, is judged once it has arrived.
    integer(ip), parameter :: DRIVEN = 4
-   real(wp), parameter :: LEAST_RATE = 1.0e-14_wp    !< of a multiplier along a motion, relative to the largest
+   real(wp), parameter :: LEAST_RATE = 1.0e-14_wp    !< of a multiplier along a motion, relative to the largest; along one that
+   real(wp), parameter :: HARDLY_SEEN = 1.0e-9_wp    !< hardly anything drives: what the digits of coordinates may make of it
    real(wp), parameter :: BREAKS = 1.0e-13_wp        !< of the largest force: a bound that is broken by less may be round-off
    integer(ip), parameter :: SOLVES_PER_UNKNOWN = 6
 
@@ -94,7 +95,7 @@ contains
             if (released > 0) cycle
             if (.not. outcome%moves) return
             ! all multipliers are right, and a body moves: to the first point that stops it
-            call find_first_reached(problem, state, outcome%motion, first, t)
+            call find_first_reached(problem, state, outcome%motion, outcome%hardly, first, t)
             if (first == 0) then
                call rest(outcome)
                return
@@ -137,7 +138,7 @@ contains
          ! with i at its bound nothing holds a body: it moves, without any force changing, until a fixed point touches or sticks
          if (outcome%moves) then
             motion = opening_motion(problem, i, bound, outcome%motion)
-            call find_first_reached(problem, state, motion, first, t)
+            call find_first_reached(problem, state, motion, outcome%hardly, first, t)
             if (first == 0) then
                call rest(outcome)
                if (.not. outcome%moves) state = target
@@ -272,11 +273,14 @@ contains
 
    !> The first fixed unknown whose multiplier reaches zero along a motion, and the distance to it; 0 when none does.
    !>
-   !> r_i + t (G v)_i = 0: an open point closes, a slipping one would go back. Rates that are round-off of the largest do not count.
-   pure subroutine find_first_reached(problem, state, motion, first, distance)
+   !> r_i + t (G v)_i = 0: an open point closes, a slipping one would go back. Rates that are round-off of the largest do not count;
+   !> where next to nothing drives the motion, those neither that digits make, or bodies went to and fro along sides that are
+   !> parallel but for them.
+   pure subroutine find_first_reached(problem, state, motion, is_hardly_driven, first, distance)
       type(bound_qp_t), intent(in) :: problem
       type(box_state_t), intent(in) :: state
       real(wp), intent(in) :: motion(:)              !< (k)
+      logical, intent(in) :: is_hardly_driven
       integer(ip), intent(out) :: first
       real(wp), intent(out) :: distance
       real(wp) :: rate(problem%m), here
@@ -286,7 +290,7 @@ contains
       distance = huge(distance)
       rate = matmul(problem%g, motion)
       do i = 1, problem%m
-         if (sign_of(state%state(i))*rate(i) >= -LEAST_RATE*maxval(abs(rate))) cycle
+         if (sign_of(state%state(i))*rate(i) >= -merge(HARDLY_SEEN, LEAST_RATE, is_hardly_driven)*maxval(abs(rate))) cycle
          here = max(-state%r(i)/rate(i), 0.0_wp)
          if (here >= distance) cycle
          first = i

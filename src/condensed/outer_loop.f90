@@ -175,8 +175,9 @@ contains
 
    !> From all points closed, by the method that the deck asks for.
    !>
-   !> Also by the methods of the ladder (atrito_ladder): EASED, and loops with small steps. A loop that a rung has begun and that
-   !> does not converge has mostly found the states but for a few, so Newton's method goes on from there.
+   !> Also by the methods of the ladder (atrito_ladder): EASED, which asks Newton's method at first, and loops with small steps. A
+   !> loop that a rung has begun and that does not converge has mostly found the states but for a few, so Newton's method goes on
+   !> from there.
    subroutine solve_from_plain_start(task, solution, status, rows)
       type(line_task_t), intent(in) :: task
       type(contact_solution_t), intent(out) :: solution  !< what a start before left is forgotten
@@ -184,6 +185,7 @@ contains
       type(constraint_rows_t), intent(in), optional :: rows
       type(picard_t) :: picard
       type(anderson_t) :: anderson
+      type(start_t) :: plain
       real(wp), allocatable :: tau(:)
 
       if (present(rows)) solution%rows = rows
@@ -199,6 +201,11 @@ contains
          picard%relaxation = task%controls%relaxation
          call iterate(task, picard, tau, solution, status)
       case (METHOD_EASED)
+         plain = start_t(tau, solution%bounds, solution%state)
+         if (.not. present(rows)) call newton_from(status)
+         if (solution%converged) return
+         solution%bounds = plain%bounds
+         solution%state = plain%state
          call ease_friction(task, tau, solution, status)
       case default
          if (task%controls%method == METHOD_NEWTON .and. .not. present(rows)) then  ! with rows its matrix cannot be factored

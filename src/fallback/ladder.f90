@@ -27,8 +27,8 @@ module atrito_ladder
    end type rung_t
 
    !> In the order in which they are tried, each with scenes that have no solution without it (seed/number of random_scenes, in
-   !> tests/extremes/CMakeLists.txt; in an optimised build, as round-off decides which states are tried). NEWTON, small steps alone
-   !> and more iterations of the dense form found nothing that these do not, but for two scenes of 7,000 (4711/3598, 11/2226).
+   !> tests/extremes/CMakeLists.txt; in an optimised build, as round-off decides which states are tried). Small steps alone and more
+   !> iterations of the dense form found nothing that these do not. EASED begins with NEWTON, as the line is (20290305/502).
    type(rung_t), parameter :: RUNGS(6) = [ &
                               rung_t(CONTACT_SPARSE, METHOD_ANDERSON), &           ! multipliers: 11/1, 11/137, 11/1172
                               rung_t(CONTACT_DENSE, METHOD_EASED), &               ! from more friction: 11/154, 4711/2464

@@ -196,7 +196,7 @@ contains
       call note_digits(data%fem, data%rows, data%line, rows)
       if (.not. any(rows%doubt > 0.0_wp)) return
       associate (v => solution%inner%motion)
-         if (.not. sum(v**2) > 0.0_wp) return
+         if (.not. abs(dot_product(v, rows%work)) > 0.0_wp) return   ! loads that do no work lose none
          if (.not. is_within_digits(data, rows, v, merge(0.0_wp, solution%state%q, data%line%has_friction))) return
          call take_out(data, v*(dot_product(v, rows%work)/sum(v**2)))
       end associate
@@ -236,8 +236,9 @@ contains
    end function dropped_part
 
    !> Takes the work on idle motions out of the loads, which a solution has counted as none: else its bodies were out of balance by
-   !> it, which may be all that there is of other forces. Where the certificate proves that nothing balances it, and it is more than
-   !> the digits of the deck make, the loads drive the motion: then there is no solution (solution%converged).
+   !> it, which may be all that there is of other forces. It is the work of all forces: those that hold have none, but they balance
+   !> what the rounding of a motion makes of the loads of heavier bodies. Where the certificate proves that nothing balances it, and
+   !> it is more than the digits of the deck make, the loads drive the motion: there is no solution (solution%converged).
    subroutine clear_idle_loads(data, rows, idle, solution, has_changed)
       type(scene_data_t), intent(inout) :: data
       type(motion_rows_t), intent(in) :: rows
@@ -248,7 +249,9 @@ contains
       real(wp) :: most(rows%n_columns), sizes(rows%n_columns)
       integer(ip) :: k
 
-      most = matmul(idle, matmul(rows%work, idle))
+      most = rows%work
+      call add_transposed(rows, -1.0_wp, solution%state%q, most)
+      most = matmul(idle, matmul(most, idle))
       sizes = rows%work_size + transposed_sizes(rows, solution%state%q)
       sizes = [(maxval(sizes, mask=rows%body == rows%body(k)), k=1, rows%n_columns)]
       has_changed = any(abs(most) > NO_FORCE*sizes) .and. all(abs(most) <= BALANCED*sizes)
@@ -271,6 +274,7 @@ contains
       type(contact_solution_t), intent(in) :: solution
       logical, intent(out) :: has_changed
       real(wp) :: largest(rows%n), force(rows%n)    ! that each row bears or may bear by friction
+      type(motion_rows_t) :: rest                   ! with the work of what is left without the small forces
       logical :: is_sure(rows%n), is_due            ! larger forces than those that are dropped in any case
       real(wp), allocatable :: more(:, :)
       integer(ip) :: i
@@ -301,8 +305,10 @@ contains
       if (.not. is_due) return
       call find_idle(rows, is_sure, group, more)
       if (size(more, 2) <= size(idle, 2)) return
-      associate (most => matmul(more, matmul(rows%work, more))) ! in which the loads work most
-         if (.not. is_within_digits(data, rows, most, merge(solution%state%q, 0.0_wp, is_sure))) return
+      rest = rows
+      call add_transposed(rows, -1.0_wp, merge(solution%state%q, 0.0_wp, is_sure .or. .not. holds), rest%work)
+      associate (most => matmul(more, matmul(rest%work, more))) ! in which they work most
+         if (.not. is_within_digits(data, rest, most, merge(solution%state%q, 0.0_wp, is_sure))) return
          call take_out(data, most)
       end associate
       has_changed = .true.

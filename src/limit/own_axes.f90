@@ -10,7 +10,7 @@ module atrito_own_axes
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_rows, only: contact_rows_t
    use atrito_kinds, only: ip, wp
-   use atrito_motion_rows, only: motion_rows_t, build_motion_rows, note_digits
+   use atrito_motion_rows, only: motion_rows_t, build_motion_rows, note_digits, part_from_held
    use atrito_row_entries, only: first_motions
    implicit none (type, external)
    private
@@ -39,6 +39,7 @@ contains
          if (has_own(b)) fem%bodies%list(b)%modes(:2, :2) = axes(:, :, b)
       end do
       call build_motion_rows(fem, rows, line, f, own)
+      call part_from_held(fem, line, own)
       call note_digits(fem, rows, line, own)
       do b = 1, fem%bodies%n
          if (.not. has_own(b)) cycle

@@ -13,7 +13,7 @@ module atrito_verdict
    use atrito_load_digits, only: is_within_digits, take_out
    use atrito_mechanism, only: mechanism_t, describe_motion
    use atrito_model, only: model_t
-   use atrito_motion_rows, only: motion_rows_t, build_motion_rows
+   use atrito_motion_rows, only: motion_rows_t, build_motion_rows, part_from_held
    use atrito_own_axes, only: prove_in_own_axes
    use atrito_results, only: pair_scene_t
    use atrito_scene_data, only: prepare, scene_data_t, solve_options_t
@@ -46,6 +46,7 @@ contains
       call find_conflict(data, status)
       if (.not. is_ok(status)) return
       call build_motion_rows(data%fem, data%rows, data%line, data%f, motions)
+      call part_from_held(data%fem, data%line, motions)
       call prove_in_own_axes(data%fem, data%rows, data%line, data%f, certificate)
       is_doubtful = .false.
       if (certificate%verdict == BALANCE_IMPOSSIBLE) then

@@ -164,6 +164,7 @@ contains
       if (loop%is_firm .or. multipliers%kappa >= 0.1_wp*USUAL_KAPPA) return
       loop%is_firm = .true.
       loop%steady = 0
+      loop%progress%best = HUGE_REAL
       multipliers%kappa = USUAL_KAPPA
       solution%converged = .false.
    end subroutine pull_firmly_again
@@ -198,7 +199,8 @@ contains
          logical :: leads_away
 
          leads_away = loop%mixed <= STALE_DISTANCE .and. loop%distance%bound/FARTHER > loop%mixed
-         loop%mixed = loop%distance%bound
+         ! how far Picard's bound leads behind it is not the mixing's
+         loop%mixed = merge(HUGE_REAL, loop%distance%bound, leads_away)
          if ((loop%can_wait .and. loop%lagging > 0) .or. leads_away) then
             call anderson%reset()
             tau = image

@@ -16,7 +16,8 @@ module atrito_motion_rows
    use atrito_sparse_rows, only: sparse_rows_t
    implicit none (type, external)
    private
-   public :: motion_rows_t, build_motion_rows, note_digits, join_motions, contact_digit_error, DIGIT_ERRORS, MOST_PART
+   public :: motion_rows_t, build_motion_rows, part_from_held, note_digits, join_motions, contact_digit_error
+   public :: DIGIT_ERRORS, MOST_PART
 
    !> G by the entries of its rows, and h.
    type, extends(sparse_rows_t) :: motion_rows_t
@@ -69,6 +70,53 @@ contains
       motions%column = motions%column(:n)
       motions%value = motions%value(:n)
    end subroutine build_motion_rows
+
+   !> Bodies that supports along axes of their own hold, or ties, springs, lose their part in the rows of others, as those have none
+   !> that supports along x and y hold: such forces balance whatever acts on them, and no motion that proves anything moves them. So
+   !> bodies on one foundation are judged one by one, each by its own forces. These rows are for balances and their proofs alone.
+   pure subroutine part_from_held(fem, line, motions)
+      type(fem_t), intent(in) :: fem                !< bodies with their rigid modes
+      type(contact_line_t), intent(in) :: line      !< which unknowns are of supports
+      type(motion_rows_t), intent(inout) :: motions !< as built; entries of other rows on motions of these bodies are left out
+      real(wp), parameter :: OF_ITS_OWN = 1.0e-3_wp !< part of a row that the rows before it do not have
+      real(wp) :: basis(MOST_MODES, MOST_MODES, fem%bodies%n), row(MOST_MODES), length
+      integer(ip) :: first_motion(fem%bodies%n + 1), rank(fem%bodies%n), first(motions%n + 1), i, k
+      logical :: is_of_support(motions%n), keeps(size(motions%column))
+
+      if (line%n_bilateral == 0) return
+      first_motion = first_motions(fem%bodies)
+      rank = 0
+      is_of_support = line%point > line%n - line%n_bilateral .and. motions%first(2:) > motions%first(:motions%n)
+      do i = 1, motions%n
+         if (.not. is_of_support(i)) cycle
+         associate (own => motions%column(motions%first(i):motions%first(i + 1) - 1))
+            is_of_support(i) = all(motions%body(own) == motions%body(own(1)))
+            if (.not. is_of_support(i)) cycle
+            row = 0.0_wp
+            row(own - first_motion(motions%body(own(1))) + 1) = motions%value(motions%first(i):motions%first(i + 1) - 1)
+            length = norm2(row)
+            associate (n => rank(motions%body(own(1))), found => basis(:, :, motions%body(own(1))))
+               do k = 1, n
+                  row = row - dot_product(row, found(:, k))*found(:, k)
+               end do
+               if (norm2(row) <= OF_ITS_OWN*length) cycle
+               n = n + 1
+               found(:, n) = row/norm2(row)
+            end associate
+         end associate
+      end do
+      first(1) = 1
+      do i = 1, motions%n
+         associate (own => motions%body(motions%column(motions%first(i):motions%first(i + 1) - 1)))
+            keeps(motions%first(i):motions%first(i + 1) - 1) = is_of_support(i) .or. &
+                                                               rank(own) < first_motion(own + 1) - first_motion(own)
+         end associate
+         first(i + 1) = first(i) + count(keeps(motions%first(i):motions%first(i + 1) - 1), kind=ip)
+      end do
+      motions%first = first
+      motions%column = pack(motions%column, keeps)
+      motions%value = pack(motions%value, keeps)
+   end subroutine part_from_held
 
    !> Of each unknown force, the part of the largest one that the digits may make (motions%doubt), which is the part of a motion of
    !> the bodies that its row may see by them; 0: none, as of joints. The nodes of one of its bodies may have few digits where

@@ -237,7 +237,8 @@ contains
    end function motions_left
 
    !> The motions that the supports of a body leave, if a support holds none of which it sees no more than `least`; and what
-   !> each of its rows sees of them.
+   !> each of its rows sees of them. Squares of less than 1e-7 drown in the rounding of those of other motions, so what is as little
+   !> is asked once more of these motions alone.
    subroutine see_motions(fem, bilateral, b, left, rows, seen, least)
       type(fem_t), intent(in) :: fem
       type(bilateral_rows_t), intent(in) :: bilateral
@@ -248,7 +249,7 @@ contains
       real(wp), intent(in) :: least                 !< of motions of size one, the root of the mean of the squares
       real(wp), allocatable :: a(:, :), values(:)
       integer(ip) :: i, j, k, dof, mode, n
-      integer :: info
+      integer :: info, pass
 
       associate (body => fem%bodies%list(b))
          left = body%modes
@@ -269,13 +270,16 @@ contains
                end do
             end do
          end do
-         allocate (values(n))
-         a = matmul(seen, transpose(seen))
-         call eigen_symmetric(a, values, info)
-         if (info /= 0) return
-         n = count(values <= size(rows)*least**2, kind=ip)
-         left = matmul(left, a(:, :n))
-         seen = matmul(transpose(a(:, :n)), seen)
+         do pass = 1, merge(1, 2, least >= NONE_HELD)
+            if (n == 0) return
+            a = matmul(seen, transpose(seen))
+            values = spread(0.0_wp, 1, n)
+            call eigen_symmetric(a, values, info)
+            if (info /= 0) return
+            n = count(values <= size(rows)*merge(max(least, NONE_HELD), least, pass == 1)**2, kind=ip)
+            left = matmul(left, a(:, :n))
+            seen = matmul(transpose(a(:, :n)), seen)
+         end do
       end associate
    end subroutine see_motions
 

@@ -4,6 +4,7 @@
 module atrito_solution_warnings
    use atrito_blas_info, only: is_reference_blas
    use atrito_body_motions, only: find_moved_body, motion_text
+   use atrito_bound_qp, only: FREE
    use atrito_condensed_body, only: hourglass_text
    use atrito_contact_line, only: contact_line_t, last_of_pair, friction_bound
    use atrito_contact_rows, only: contact_rows_t
@@ -26,7 +27,8 @@ module atrito_solution_warnings
 
    real(wp), parameter :: MANY_DIGITS = 10.0_wp             !< lost digits worth a warning
    real(wp), parameter :: MUCH_LOST = 1.0e8_wp              !< condition of the contact line worth a warning
-   real(wp), parameter :: UNKNOWN_PART = 1.0e-3_wp          !< of the largest pressure of a pair, worth a warning
+   real(wp), parameter :: UNKNOWN_PART = 1.0e-3_wp          !< of the largest pressure or shear of a pair, worth a warning
+   real(wp), parameter :: LITTLE_SHEAR = 1.0e-4_wp          !< of that pressure: shears count as this at least
    real(wp), parameter :: LARGE_FRICTION = 3.0_wp           !< from here on other solutions have been seen
    integer(ip), parameter :: MOST_NAMED = 5                 !< nodes in a note or a verdict
    real(wp), parameter :: LARGE_HOURGLASS = 1.0_wp          !< as much strain energy as is seen is not
@@ -76,15 +78,16 @@ contains
       text = motion_text(data%fem, b, mode)
    end function idle_text
 
-   !> Pairs whose pressures hang on the last digits of coordinates. An initial distance is a difference of those, and so known to
-   !> EPS_MACH of the largest; a closed point with a flexibility c and a compliance d takes that by a force of EPS_MACH |x|/(c + d).
-   !> A distance that is none is meant as none.
+   !> Pairs whose pressures or shears hang on the last digits of coordinates. An initial distance is a difference of those, and so
+   !> known to EPS_MACH of the largest, as is the slip of what turns by it; a closed, or sticking, point with a flexibility c and a
+   !> compliance d takes that by a force of EPS_MACH |x|/(c + d). A distance that is none is meant as none.
    subroutine warn_of_last_digits(data, solution, results)
       type(scene_data_t), intent(in) :: data
       type(contact_solution_t), intent(in) :: solution
       type(results_t), intent(in) :: results
-      real(wp) :: off, far
-      integer(ip) :: first, last, j
+      character(len=*), parameter :: KINDS(2) = ['pressure', 'shear   ']
+      real(wp) :: off(2), most(2), far                ! of pressures and shears
+      integer(ip) :: first, last, j, k, unknown(2)
 
       if (.not. (allocated(solution%flexibility) .and. allocated(solution%p))) return
       if (size(solution%flexibility) /= size(data%line%point)) return
@@ -93,19 +96,27 @@ contains
       do while (first <= data%line%n - data%line%n_bilateral)
          last = last_of_pair(data%line, first)
          off = 0.0_wp
+         most = maxval(solution%p(first:last))*[1.0_wp, LITTLE_SHEAR]
          do j = first, last
-            associate (i => data%line%normal(j), gap => data%rows%gap(j))
-               if (i == 0 .or. .not. (solution%p(j) > 0.0_wp .and. abs(gap) > 0.0_wp)) cycle
-               off = max(off, EPS_MACH*far/(solution%flexibility(i) + solution%bounds%d(i))/data%line%weight(j))
-            end associate
+            unknown = [data%line%normal(j), data%line%tangential(j)]
+            if (unknown(1) == 0 .or. .not. (solution%p(j) > 0.0_wp .and. abs(data%rows%gap(j)) > 0.0_wp)) cycle
+            do k = 1, merge(2, 1, unknown(2) > 0)
+               associate (i => unknown(k), force => EPS_MACH*far/(solution%flexibility(unknown(k)) + solution%bounds%d(unknown(k))))
+                  if (k == 2 .and. solution%state%state(i) /= FREE) cycle
+                  off(k) = max(off(k), force/data%line%weight(j))
+                  most(k) = max(most(k), abs(solution%state%q(i))/data%line%weight(j))
+               end associate
+            end do
          end do
-         associate (p => maxval(solution%p(first:last)), pair => results%scene%pairs(data%line%pair(first)))
-            if (off > UNKNOWN_PART*p) then
-               call add_warning('W-DIGITS', pair%slave//' on '//pair%master//': pressures may be off by ' &
-                                //to_text(100*min(off/p, 1.0_wp), 2)//' %: initial distances are differences of coordinates,' &
-                                //' known to '//to_text(EPS_MACH*far, 2)//' [L], and a pressure of '//to_text(off, 2) &
-                                //' [F/L^2] closes as much')
-            end if
+         associate (pair => results%scene%pairs(data%line%pair(first)))
+            do k = 1, 2
+               if (off(k) <= UNKNOWN_PART*most(k)) cycle
+               call add_warning('W-DIGITS', pair%slave//' on '//pair%master//': '//trim(KINDS(k))//'s may be off by ' &
+                                //to_text(100*min(off(k)/most(k), 1.0_wp), 2)//' %: initial distances are differences of' &
+                                //' coordinates, known to '//to_text(EPS_MACH*far, 2)//' [L], and a '//trim(KINDS(k))//' of ' &
+                                //to_text(off(k), 2)//' [F/L^2] closes as much')
+               exit
+            end do
          end associate
          first = last + 1
       end do

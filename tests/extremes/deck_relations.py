@@ -184,20 +184,26 @@ def signed_axes(deck, q):
                 row[i + 1:i + 3] = [str(axis + 1), repr(sign*float(row[i + 2]))]
 
 
-def shaken(deck, rng, digits=1.0):
-    """No relation: each place off by a last digit or two, which is what turning a deck does to it; or by some more digits."""
-    deck = deck.copy()
+def places(deck):
+    """(row, column of x) of all nodes and of the ends of drawn lines."""
     rows = [(row, 1) for _, _, data in deck.each('NODE') for row in data]
-    rows += [(row, i) for _, options, data in deck.each('SURFACE') if options.get('TYPE') == 'SEGMENTS' for row in data
-             for i in range(1, len(row) - 1, 2)]
-    for row, i in rows:
-        digit = digits*2.0**-52*math.hypot(float(row[i]), float(row[i + 1]))
-        row[i:i + 2] = [repr(float(word) + rng.choice((-1.0, 1.0))*digit) for word in row[i:i + 2]]
+    return rows + [(row, i) for _, options, data in deck.each('SURFACE') if options.get('TYPE') == 'SEGMENTS' for row in data
+                   for i in range(1, len(row) - 1, 2)]
+
+
+def shaken(deck, rng, digits=1.0, is_chosen=lambda words: True):
+    """No relation: each place off by a last digit or two, which is what turning a deck does to it; or by some more digits; or some."""
+    deck = deck.copy()
+    for row, i in places(deck):
+        if is_chosen(row[i:i + 2]):
+            digit = digits*2.0**-52*math.hypot(float(row[i]), float(row[i + 1]))
+            row[i:i + 2] = [repr(float(word) + rng.choice((-1.0, 1.0))*digit) for word in row[i:i + 2]]
     return deck
 
 
-def has_few_digits(deck):
-    return all(float(f'{float(word):.11e}') == float(word) for _, _, data in deck.each('NODE') for row in data for word in row[1:3])
+def without_few_digits(deck, rng, digits):
+    """The places that have at most twelve digits, body by body or line by line, get all of them: their new digits say nothing."""
+    return shaken(deck, rng, digits, lambda words: all(float(f'{float(word):.11e}') == float(word) for word in words))
 
 
 def quarter_turn(deck, _):

@@ -43,7 +43,10 @@ sys.exit({code} if {code} and {quits!r} in ' '.join(sys.argv) else done.returnco
 '''
 # (seed, number) of scenes whose relations hold; of the last one W-IDLE is told
 SCENES = {'plain': (1, 6), 'history': (1, 52), 'idle': (1, 215), 'digits': (20290223, 24), 'at rest': (20290601, 72),
-          'small overlap': (20290611, 51)}
+          'small overlap': (20290611, 51), 'digits of a body': (20290622, 21), 'shears': (20290622, 141)}
+
+# of turned and mirrored decks of the last two
+TURNED, MIRRORED = 'START, -0.7083911501', 'START, -0.00025498531946'
 
 
 def program(atrito, name, sees, table='none', column='', change=1e-6, code=0, quits='--threads'):
@@ -66,7 +69,8 @@ def liars_must_be_caught(atrito, generator):
     all_of_them = ','.join(run_relations.RELATIONS)
     for (seed, number), which in ((SCENES['plain'], all_of_them), (SCENES['history'], all_of_them),
                                   (SCENES['idle'], 'quarter turn,mirror,threads,banded,dense form'),
-                                  (SCENES['digits'], 'mirror'), (SCENES['at rest'], 'turn'), (SCENES['small overlap'], 'banded')):
+                                  (SCENES['digits'], 'mirror'), (SCENES['at rest'], 'turn'), (SCENES['small overlap'], 'banded'),
+                                  (SCENES['digits of a body'], 'turn'), (SCENES['shears'], 'mirror')):
         code, said = relate(atrito, generator, seed, number, which)
         expect(f'scene {number} of seed {seed} holds: {said}', code == 0)
     for what, sees, table, column, which, scene in (
@@ -77,8 +81,11 @@ def liars_must_be_caught(atrito, generator):
             ('a displacement begun again', '--restart', 'nodes', 'u2', 'restart', 'history'),
             ('a pressure by more than its digits', 'START, 3.385724587', 'contact', 'pressure', 'mirror', 'digits'),
             ('a pressure by more than its digits, of a solver', '--solver banded', 'contact', 'pressure', 'banded', 'small overlap'),
-            ('a displacement of round-off that is none', '*TRANSFORM', 'nodes', 'u1', 'turn', 'at rest')):
-        path = program(atrito, 'liar', sees, table, column, {'digits': 10.0, 'at rest': 1e12, 'small overlap': 10.0}.get(scene, 1e-6))
+            ('a displacement of round-off that is none', '*TRANSFORM', 'nodes', 'u1', 'turn', 'at rest'),
+            ('a pressure by more than the digits of a body', TURNED, 'contact', 'pressure', 'turn', 'digits of a body'),
+            ('a pressure by more than the digits of shears', MIRRORED, 'contact', 'pressure', 'mirror', 'shears')):
+        path = program(atrito, 'liar', sees, table, column, {'digits': 10.0, 'at rest': 1e12, 'small overlap': 10.0,
+                                                             'digits of a body': 1e-3, 'shears': 0.1}.get(scene, 1e-6))
         code, said = relate(path, generator, *SCENES[scene], which)
         expect(f'{what}: {said[:100]}', code == 1)
     path = program(atrito, 'liar', '--threads', 'stress', 's12')
@@ -90,6 +97,8 @@ def liars_must_be_caught(atrito, generator):
     expect(f'friction that the last digits move is no solution, so another exit code says nothing: {said}', code == 0)
     path = program(atrito, 'silent', 'START, 3.385724587', 'digits')
     expect('digits that are not told', relate(path, generator, *SCENES['digits'], 'mirror')[0] == 1)
+    path = program(atrito, 'silent', MIRRORED, 'digits')
+    expect('digits of shears that are not told', relate(path, generator, *SCENES['shears'], 'mirror')[0] == 1)
     path = program(atrito, 'silent', '--threads', 'idle')
     expect('W-IDLE in one only', relate(path, generator, *SCENES['idle'], 'threads')[0] == 1)
 

@@ -226,9 +226,9 @@ def compare_all(settings, outcome, deck, base):
             measure_digits(settings, outcome, (deck,), base, name)
     exact = Deck(deck_of(settings, outcome.number, digits=17)[1])
     all_digits = first
-    if exact.text() == deck.text() and relations.has_few_digits(deck):
-        # so far that it is no deck of few digits, as the other one is none
-        exact = relations.shaken(deck, random.Random(f'{settings.seed}-{outcome.number}'), NO_FEW_DIGITS)
+    if exact.text() == deck.text():
+        # places of few digits so far that they are none, as those of the other deck are none
+        exact = relations.without_few_digits(deck, random.Random(f'{settings.seed}-{outcome.number}'), NO_FEW_DIGITS)
     if exact.text() != deck.text():
         all_digits = Result(settings, exact.text(), base, 'all-digits')
         if outcome.has_friction and outcome.is_one:
