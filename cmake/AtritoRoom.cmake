@@ -59,7 +59,7 @@ function(atrito_add_room room)
    target_link_libraries(atrito_${room} PUBLIC ${ARG_LIBRARIES})
 endfunction()
 
-# Texts that become modules: their lines in Fortran.
+# Texts that become modules: their lines in Fortran, with --whole as they stand.
 function(atrito_text_lines name)
    cmake_parse_arguments(ARG "--whole" "" "" ${ARGN})
    set(files ${ARG_UNPARSED_ARGUMENTS})
