@@ -16,7 +16,7 @@ module atrito_idle_motions
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, wp
    use atrito_least_motions, only: measure_motions, take_least
-   use atrito_load_digits, only: is_within_digits, take_out
+   use atrito_load_digits, only: is_within_digits, take_out, work_along
    use atrito_long_ways, only: take_rounding_off
    use atrito_motion_rows, only: motion_rows_t, build_motion_rows, note_digits, join_motions, MOST_PART
    use atrito_own_axes, only: prove_in_own_axes
@@ -199,7 +199,7 @@ contains
       associate (v => solution%inner%motion)
          if (.not. sum(v**2) > 0.0_wp) return
          if (.not. is_within_digits(data, rows, v, merge(0.0_wp, solution%state%q, data%line%has_friction))) return
-         call take_out(data, v*(dot_product(v, rows%work)/sum(v**2)))
+         call take_out(data, work_along(rows, reshape(v, [size(v), 1])))
       end associate
       has_changed = .true.
    end subroutine stop_slow_motion
@@ -256,7 +256,7 @@ contains
       if (.not. has_changed) return
       call prove_in_own_axes(data%fem, data%rows, data%line, data%f, certificate)
       if (certificate%verdict == BALANCE_IMPOSSIBLE) has_changed = is_within_digits(data, rows, certificate%motion, certificate%q)
-      if (has_changed) call take_out(data, most)
+      if (has_changed) call take_out(data, work_along(rows, idle))
       solution%converged = has_changed
    end subroutine clear_idle_loads
 
@@ -304,7 +304,7 @@ contains
       if (size(more, 2) <= size(idle, 2)) return
       associate (most => matmul(more, matmul(rows%work, more))) ! in which the loads work most
          if (.not. is_within_digits(data, rows, most, merge(solution%state%q, 0.0_wp, is_sure))) return
-         call take_out(data, most)
+         call take_out(data, work_along(rows, more))
       end associate
       has_changed = .true.
    end subroutine doubt_loads

@@ -14,7 +14,7 @@
 !> of them. Normals along an axis, and decks that are not rounded to digits, leave nothing in doubt.
 module atrito_load_digits
    use atrito_contact_rows, only: vector_of_entry
-   use atrito_dense, only: solve_lu
+   use atrito_dense, only: least_squares, solve_lu
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: face_nodes
    use atrito_motion_rows, only: motion_rows_t, contact_digit_error, DIGIT_ERRORS, MOST_PART
@@ -23,7 +23,7 @@ module atrito_load_digits
    use atrito_sparse_rows, only: transposed_sizes
    implicit none (type, external)
    private
-   public :: is_within_digits, take_out
+   public :: is_within_digits, work_along, take_out
 
    real(wp), parameter :: ALONG_AXIS = 1.0e-12_wp   !< part of a normal
 
@@ -114,6 +114,26 @@ contains
       end function rate_of_entry
 
    end function is_within_digits
+
+   !> The work h' on the motions of the bodies that is to be taken out where the loads are to do none on the motions V: the least with
+   !> V'h' = V'h among those that leave bodies without loads as they are. h' = P V s, P taking the loaded bodies, V'P V s = V'h.
+   function work_along(rows, motions) result(work)
+      type(motion_rows_t), intent(in) :: rows       !< h
+      real(wp), intent(in) :: motions(:, :)         !< (k, motions) V
+      real(wp) :: work(size(motions, 1)), part(size(motions, 1), size(motions, 2)), s(size(motions, 2))
+      real(wp), parameter :: DEPENDENT = 1.0e-10_wp
+      logical :: is_loaded(max(0_ip, maxval(rows%body)))
+      integer(ip) :: k, rank, info
+
+      is_loaded = .false.
+      is_loaded(pack(rows%body, rows%work_size > 0.0_wp)) = .true.
+      do k = 1, rows%n_columns
+         part(k, :) = merge(motions(k, :), 0.0_wp, is_loaded(rows%body(k)))
+      end do
+      call least_squares(matmul(transpose(part), part), matmul(rows%work, motions), s, DEPENDENT, rank, info)
+      work = 0.0_wp
+      if (info == 0) work = matmul(part, s)
+   end function work_along
 
    !> Takes work h on the motions of the bodies out of the loads: of all forces with that work the least, Z (Z'Z)^-1 h. The loads of
    !> the increment are no sum of the bases of its step any more; the next increment has its own.

@@ -10,7 +10,7 @@ module atrito_verdict
    use atrito_free_motion, only: free_motion_text
    use atrito_dense, only: null_space
    use atrito_kinds, only: ip, wp
-   use atrito_load_digits, only: is_within_digits, take_out
+   use atrito_load_digits, only: is_within_digits, take_out, work_along
    use atrito_mechanism, only: mechanism_t, describe_motion
    use atrito_model, only: model_t
    use atrito_motion_rows, only: motion_rows_t, build_motion_rows
@@ -77,7 +77,7 @@ contains
          again = is_doubtful
          if (is_doubtful) then
             associate (v => certificate%motion)
-               call take_out(data, v*(dot_product(v, motions%work)/sum(v**2)))
+               call take_out(data, work_along(motions, reshape(v, [size(v), 1])))
             end associate
          else if (certificate%verdict == BALANCE_POSSIBLE) then
             rest = motions
