@@ -10,15 +10,14 @@ module atrito_idle_motions
    use atrito_certificate, only: certificate_t, BALANCE_IMPOSSIBLE
    use atrito_contact_line, only: friction_bound
    use atrito_contact_solution, only: contact_solution_t
-   use atrito_dense, only: eigen_symmetric
-   use atrito_dense_blocks, only: factor_in_blocks
+   use atrito_digit_turns, only: turn_rows
    use atrito_friction_law, only: FRICTION_NONE
-   use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, wp
    use atrito_least_motions, only: measure_motions, take_least
    use atrito_load_digits, only: is_within_digits, take_out, work_along
    use atrito_long_ways, only: take_rounding_off
    use atrito_motion_rows, only: motion_rows_t, build_motion_rows, note_digits, join_motions, MOST_PART
+   use atrito_null_motions, only: find_idle, MOST_MOTIONS
    use atrito_own_axes, only: prove_in_own_axes
    use atrito_scene_data, only: scene_data_t
    use atrito_sparse_rows, only: add_transposed, multiply_rows, transposed_sizes
@@ -26,8 +25,6 @@ module atrito_idle_motions
    private
    public :: settle_idle_motions, stop_slow_motion
 
-   integer(ip), parameter :: MOST_MOTIONS = 300_ip  !< of a group: its null space takes their cube of operations
-   real(wp), parameter :: NULL_MOTION = 1.0e-14_wp  !< square of what rows see of an idle motion, over that of the others
    real(wp), parameter :: NO_FORCE = 1.0e-13_wp     !< of the largest force on bodies that touch: round-off
    real(wp), parameter :: DOUBTS = 5.0_wp           !< of a normal, which a force may be off by, over the largest one
    real(wp), parameter :: MOST_DOUBT = 1.0e-9_wp    !< that balances leave
@@ -300,6 +297,8 @@ contains
          end associate
       end do
       if (.not. is_due) return
+      call turn_rows(data, rows, group, is_sure, has_changed)
+      if (has_changed) return
       call find_idle(rows, is_sure, group, more)
       if (size(more, 2) <= size(idle, 2)) return
       associate (most => matmul(more, matmul(rows%work, more))) ! in which the loads work most
@@ -335,86 +334,5 @@ contains
          end associate
       end do
    end function of_large_group
-
-   !> The null space of the rows that hold, group by group; of those with more than MOST_MOTIONS none is sought.
-   !>
-   !> v is idle when G_i v = 0 for all rows i that hold, so when v'A v = 0 with A = sum_i G_i'G_i, which is positive semidefinite:
-   !> the idle motions of a group are the eigenvectors of its A whose eigenvalue is zero. A row has entries in one group alone, so a
-   !> group with g motions takes g^3 operations whatever there is beside it. Eigenvalues are squares of what the rows see of a
-   !> motion of length one, which is why NULL_MOTION, beside the largest, is a part of 1e-7 in lengths.
-   subroutine find_idle(rows, holds, group, idle)
-      type(motion_rows_t), intent(in) :: rows
-      logical, intent(in) :: holds(:)               !< (m)
-      integer(ip), intent(in) :: group(:)           !< (k)
-      real(wp), allocatable, intent(out) :: idle(:, :) !< (k, motions), columns of length one
-      real(wp) :: found(size(group), size(group))
-      real(wp), allocatable :: a(:, :), values(:)
-      integer(ip), allocatable :: first(:), member(:), of_group(:), list(:)
-      integer(ip) :: place(size(group)), g, i, j, n, info
-
-      n = 0
-      allocate (of_group(rows%n), source=0_ip)
-      do i = 1, rows%n
-         if (holds(i) .and. rows%first(i + 1) > rows%first(i)) of_group(i) = group(rows%column(rows%first(i)))
-      end do
-      call list_holders(rows%n_columns, reshape(of_group, [1_ip, rows%n]), first, member)
-      do g = 1, rows%n_columns
-         if (group(g) /= g) cycle
-         list = pack([(i, i=1, rows%n_columns)], group == g)
-         if (size(list) > MOST_MOTIONS) cycle
-         place(list) = [(i, i=1, size(list, kind=ip))]
-         allocate (a(size(list), size(list)), source=0.0_wp)
-         do j = first(g), first(g + 1) - 1
-            call add_row(rows, member(j), place, a)
-         end do
-         if (may_be_singular(a)) then
-            allocate (values(size(list)))
-            call eigen_symmetric(a, values, info)
-            do j = 1, size(list, kind=ip)
-               if (info /= 0 .or. values(j) > NULL_MOTION*values(size(list))) exit
-               n = n + 1
-               found(:, n) = 0.0_wp
-               found(list, n) = a(:, j)
-            end do
-            deallocate (values)
-         end if
-         deallocate (a)
-      end do
-      idle = found(:, :n)
-   end subroutine find_idle
-
-   !> Whether A may have an eigenvalue that is none. It has not where A - s 1 has a Cholesky factor, s being CLEARLY_HELD of the
-   !> norm of A, far more than the rounding of the factor. That takes a thirtieth of the time of the eigenvectors, and few groups
-   !> are idle.
-   logical function may_be_singular(a)
-      real(wp), intent(in) :: a(:, :)
-      real(wp), parameter :: CLEARLY_HELD = 1.0e-10_wp
-      real(wp) :: shifted(size(a, 1), size(a, 2)), shift
-      integer(ip) :: j, failed
-
-      shifted = a
-      shift = CLEARLY_HELD*maxval(sum(abs(a), dim=1))
-      do j = 1, size(a, 1, kind=ip)
-         shifted(j, j) = a(j, j) - shift
-      end do
-      call factor_in_blocks(shifted, failed)
-      may_be_singular = failed > 0
-   end function may_be_singular
-
-   !> Adds G_i' G_i of a row to the matrix of its group.
-   pure subroutine add_row(rows, i, place, a)
-      type(motion_rows_t), intent(in) :: rows
-      integer(ip), intent(in) :: i
-      integer(ip), intent(in) :: place(:)           !< (k) of the motions in their group
-      real(wp), intent(inout) :: a(:, :)
-      integer(ip) :: d, e
-
-      do d = rows%first(i), rows%first(i + 1) - 1
-         do e = rows%first(i), rows%first(i + 1) - 1
-            a(place(rows%column(d)), place(rows%column(e))) = a(place(rows%column(d)), place(rows%column(e))) &
-                                                              + rows%value(d)*rows%value(e)
-         end do
-      end do
-   end subroutine add_row
 
 end module atrito_idle_motions
