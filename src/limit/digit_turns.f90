@@ -19,8 +19,10 @@ module atrito_digit_turns
    private
    public :: turn_rows
 
-   integer(ip), parameter :: MOST_TURNS = 8_ip
-   real(wp), parameter :: LEAST_TURN = 1.0e-14_wp
+   integer(ip), parameter :: MOST_TURNS = 60_ip
+   integer(ip), parameter :: LONG_TURN = 3_ip       !< so often all that is to come is taken at once, by the ratio of the last two
+   real(wp), parameter :: LEAST_TURN = 1.0e-13_wp
+   real(wp), parameter :: MOST_RATIO = 0.95_wp
 
 contains
 
@@ -32,19 +34,24 @@ contains
       logical, intent(in) :: is_sure(:)             !< (m) rows that bear more than what is in doubt
       logical, intent(out) :: has_changed
       type(motion_rows_t) :: turned
-      real(wp), allocatable :: free(:, :), near(:, :), normal(:, :), tangent(:, :)
-      real(wp) :: angle(rows%n), sum_of(rows%n)
-      integer(ip) :: i, turn
+      real(wp), allocatable :: near(:, :), normals(:, :), tangents(:, :)
+      real(wp) :: angle(rows%n), last(rows%n), sum_of(rows%n)
+      integer(ip) :: i, n, turn
 
       has_changed = .false.
-      call find_idle(rows, is_sure, group, free)
       call find_idle(rows, is_sure, group, near, rows%doubt)
-      if (size(near, 2) <= size(free, 2)) return
-      normal = data%rows%normal
-      tangent = data%rows%tangent
+      n = size(near, 2, kind=ip)
+      if (n == 0) return
+      normals = data%rows%normal
+      tangents = data%rows%tangent
+      angle = 0.0_wp
       sum_of = 0.0_wp
       do turn = 1, MOST_TURNS
+         last = angle
          angle = [(angle_of(i), i=1, rows%n)]
+         has_changed = maxval(abs(angle)) <= LEAST_TURN
+         if (has_changed) exit
+         if (modulo(turn, LONG_TURN) == 0) angle = angle/(1 - min(max(sum(angle*last)/sum(last**2), 0.0_wp), MOST_RATIO))
          sum_of = sum_of + angle
          if (any(abs(sum_of) > rows%doubt)) exit
          do i = 1, rows%n
@@ -57,15 +64,12 @@ contains
          end do
          call build_motion_rows(data%fem, data%rows, data%line, data%f, turned)
          call find_idle(turned, is_sure, group, near, rows%doubt)
-         if (size(near, 2) <= size(free, 2)) exit
-         has_changed = maxval(abs(angle)) <= LEAST_TURN
-         if (has_changed) exit
+         if (size(near, 2) < n) exit
       end do
-      if (has_changed) call find_idle(turned, is_sure, group, free)
-      has_changed = has_changed .and. size(free, 2) == size(near, 2)
+      has_changed = has_changed .and. turn > 1
       if (.not. has_changed) then
-         data%rows%normal = normal
-         data%rows%tangent = tangent
+         data%rows%normal = normals
+         data%rows%tangent = tangents
          return
       end if
       call drop_assembled(data)
@@ -77,21 +81,21 @@ contains
       !> By which the normal of row i turns; 0 where it stays as it is.
       real(wp) function angle_of(i) result(angle)
          integer(ip), intent(in) :: i
-         real(wp) :: along, across, n(2), t(2)
+         real(wp) :: along, across, normal(2), tangent(2)
          integer(ip) :: k
 
          angle = 0.0_wp
          associate (j => data%line%point(i))
             if (.not. (is_sure(i) .and. rows%doubt(i) > 0.0_wp .and. data%line%normal(j) == i)) return
             if (data%line%law(j)%kind /= FRICTION_NONE .or. any(data%rows%is_held(:, j))) return
-            n = data%rows%normal(:, j)
-            t = data%rows%tangent(:, j)
+            normal = data%rows%normal(:, j)
+            tangent = data%rows%tangent(:, j)
             along = 0.0_wp
             across = 0.0_wp
             do k = 1, size(near, 2, kind=ip)
-               associate (slip => rate_of_point(data, j, t, near(:, k)))
+               associate (slip => rate_of_point(data, j, tangent, near(:, k)))
                   along = along + slip**2
-                  across = across + slip*rate_of_point(data, j, n, near(:, k))
+                  across = across + slip*rate_of_point(data, j, normal, near(:, k))
                end associate
             end do
          end associate
