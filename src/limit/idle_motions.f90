@@ -268,6 +268,7 @@ contains
       real(wp), intent(in) :: tau(:)                !< friction bounds at the points [F/L^2]
       type(contact_solution_t), intent(in) :: solution
       logical, intent(out) :: has_changed
+      real(wp) :: arm(rows%n)                       ! size of a body in lengths of the point
       real(wp) :: largest(rows%n), force(rows%n)    ! that each row bears or may bear by friction
       logical :: is_sure(rows%n), is_due            ! larger forces than those that are dropped in any case
       real(wp), allocatable :: more(:, :)
@@ -284,6 +285,12 @@ contains
       if (.not. any(holds .and. force > NO_FORCE*largest .and. force <= MOST_PART*largest)) return
       call note_digits(data%fem, data%rows, data%line, rows)
       if (.not. any(rows%doubt > 0.0_wp)) return
+      ! by their arms small forces balance what tilted normals of large ones make
+      arm = [(maxval([1.0_wp, data%fem%bodies%list(rows%body(rows%column(rows%first(i):rows%first(i + 1) - 1)))%size &
+                      /data%rows%reach(data%line%point(i))]), i=1, rows%n)]
+      is_sure = holds .and. (force > min(MOST_PART, rows%doubt*arm)*largest .or. .not. rows%doubt > 0.0_wp)
+      if (any(holds .and. .not. is_sure)) call turn_rows(data, rows, group, is_sure, has_changed)
+      if (has_changed) return
       is_sure = holds
       is_due = .false.
       do i = 1, rows%n
@@ -297,8 +304,6 @@ contains
          end associate
       end do
       if (.not. is_due) return
-      call turn_rows(data, rows, group, is_sure, has_changed)
-      if (has_changed) return
       call find_idle(rows, is_sure, group, more)
       if (size(more, 2) <= size(idle, 2)) return
       associate (most => matmul(more, matmul(rows%work, more))) ! in which the loads work most
