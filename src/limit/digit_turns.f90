@@ -53,7 +53,7 @@ contains
          if (has_changed) exit
          if (modulo(turn, LONG_TURN) == 0) angle = angle/(1 - min(max(sum(angle*last)/sum(last**2), 0.0_wp), MOST_RATIO))
          sum_of = sum_of + angle
-         if (any(abs(sum_of) > rows%doubt)) exit
+         if (any(abs(sum_of) > max(rows%doubt, data%rows%doubt(data%line%point)))) exit
          do i = 1, rows%n
             associate (j => data%line%point(i), a => angle(i))
                if (.not. abs(a) > 0.0_wp) cycle

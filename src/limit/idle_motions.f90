@@ -26,6 +26,7 @@ module atrito_idle_motions
    public :: settle_idle_motions, stop_slow_motion
 
    real(wp), parameter :: NO_FORCE = 1.0e-13_wp     !< of the largest force on bodies that touch: round-off
+   real(wp), parameter :: MOST_BALANCE = 0.1_wp     !< of the largest force, what balances tilts of normals
    real(wp), parameter :: DOUBTS = 5.0_wp           !< of a normal, which a force may be off by, over the largest one
    real(wp), parameter :: MOST_DOUBT = 1.0e-9_wp    !< that balances leave
    real(wp), parameter :: BALANCED = 1.0e-8_wp      !< of the forces on a body, for the final check
@@ -282,13 +283,13 @@ contains
             if (data%line%tangential(j) == i) force(i) = tau(j)*data%line%weight(j) ! what friction there may hold
          end associate
       end do
-      if (.not. any(holds .and. force > NO_FORCE*largest .and. force <= MOST_PART*largest)) return
+      if (.not. any(holds .and. force > NO_FORCE*largest .and. force <= MOST_BALANCE*largest)) return
       call note_digits(data%fem, data%rows, data%line, rows)
       if (.not. any(rows%doubt > 0.0_wp)) return
       ! by their arms small forces balance what tilted normals of large ones make
       arm = [(maxval([1.0_wp, data%fem%bodies%list(rows%body(rows%column(rows%first(i):rows%first(i + 1) - 1)))%size &
                       /data%rows%reach(data%line%point(i))]), i=1, rows%n)]
-      is_sure = holds .and. (force > min(MOST_PART, rows%doubt*arm)*largest .or. .not. rows%doubt > 0.0_wp)
+      is_sure = holds .and. (force > min(MOST_BALANCE, rows%doubt*arm)*largest .or. .not. rows%doubt > 0.0_wp)
       if (any(holds .and. .not. is_sure)) call turn_rows(data, rows, group, is_sure, has_changed)
       if (has_changed) return
       is_sure = holds

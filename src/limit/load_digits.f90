@@ -23,7 +23,7 @@ module atrito_load_digits
    use atrito_sparse_rows, only: transposed_sizes
    implicit none (type, external)
    private
-   public :: is_within_digits, rate_of_point, work_along, take_out
+   public :: is_within_digits, rate_of_point, work_along, is_loaded, take_out
 
    real(wp), parameter :: ALONG_AXIS = 1.0e-12_wp   !< part of a normal
 
@@ -122,13 +122,12 @@ contains
       real(wp), intent(in) :: motions(:, :)         !< (k, motions) V
       real(wp) :: work(size(motions, 1)), part(size(motions, 1), size(motions, 2)), s(size(motions, 2))
       real(wp), parameter :: DEPENDENT = 1.0e-10_wp, FARTHEST = 3.0_wp
-      logical :: is_loaded(max(0_ip, maxval(rows%body)))
+      logical :: loaded(rows%n_columns)
       integer(ip) :: k, rank, info
 
-      is_loaded = .false.
-      is_loaded(pack(rows%body, rows%work_size > 0.0_wp)) = .true.
+      loaded = is_loaded(rows)
       do k = 1, rows%n_columns
-         part(k, :) = merge(motions(k, :), 0.0_wp, is_loaded(rows%body(k)))
+         part(k, :) = merge(motions(k, :), 0.0_wp, loaded(k))
       end do
       call least_squares(matmul(transpose(part), part), matmul(rows%work, motions), s, DEPENDENT, rank, info)
       work = matmul(part, s)
@@ -136,6 +135,16 @@ contains
          work = matmul(motions, matmul(rows%work, motions))
       end if
    end function work_along
+
+   !> Of each motion, whether its body has loads.
+   pure function is_loaded(rows) result(loaded)
+      type(motion_rows_t), intent(in) :: rows
+      logical :: loaded(rows%n_columns), of_body(max(0_ip, maxval(rows%body)))
+
+      of_body = .false.
+      of_body(pack(rows%body, rows%work_size > 0.0_wp)) = .true.
+      loaded = of_body(rows%body)
+   end function is_loaded
 
    !> Takes work h on the motions of the bodies out of the loads: of all forces with that work the least, Z (Z'Z)^-1 h. The loads of
    !> the increment are no sum of the bases of its step any more; the next increment has its own.
