@@ -305,7 +305,7 @@ contains
    !>
    !> proven where excess > CLEAR of the work of all loads, > MANY_TIMES taken, and > SOME_TIMES handed_on. A bilateral row may pull
    !> and push, so |N_k v| counts. What a row sees of a motion is known to the digits of the deck (rows%doubt): a resistance within
-   !> them is one of no MANY_TIMES, but counts in handed_on, as round-off does.
+   !> them is one of no MANY_TIMES, but counts in handed_on. What round-off of the rates takes is no proof either.
    subroutine motion_excess(rows, line, body_force, v, excess, proven)
       type(motion_rows_t), intent(in) :: rows    !< G, and the work of the loads on each motion
       type(contact_line_t), intent(in) :: line   !< points, weights, laws and averages are read
@@ -313,7 +313,7 @@ contains
       real(wp), intent(in) :: v(:)               !< (k) [L]
       real(wp), intent(out) :: excess            !< [F L]
       logical, intent(out) :: proven             !< no forces can balance the loads
-      real(wp) :: rate(rows%n), terms(rows%n), by_friction(line%n), known_work, work_size, taken, handed_on, resisted
+      real(wp) :: rate(rows%n), terms(rows%n), by_friction(line%n), known_work, work_size, taken, handed_on, resisted, rounding
       real(wp) :: unsure(rows%n), rubbed(line%n)    ! by digits: rates, and of friction
       integer(ip) :: i
 
@@ -325,13 +325,14 @@ contains
       call friction_work(line, unsure, rubbed)
       taken = 0.0_wp
       handed_on = 0.0_wp
+      rounding = 0.0_wp
       do i = 1, rows%n
          if (line%normal(line%point(i)) /= i) cycle
          resisted = rate(i) + by_friction(line%point(i))
          if (line%point(i) > line%n - line%n_bilateral) resisted = abs(rate(i))
          if (resisted <= ROUND_OFF*(terms(i) + by_friction(line%point(i)))) then
-            if (terms(i) > 0.0_wp) handed_on = handed_on + EPS_MACH*terms(i) &
-                                               *maxval(body_force(rows%column(rows%first(i):rows%first(i + 1) - 1)))
+            if (terms(i) > 0.0_wp) rounding = rounding + EPS_MACH*terms(i) &
+                                              *maxval(body_force(rows%column(rows%first(i):rows%first(i + 1) - 1)))
             cycle
          end if
          if (rows%first(i + 1) > rows%first(i)) then
@@ -343,7 +344,7 @@ contains
             taken = taken + resisted*maxval(body_force)      ! its pressure only raises the friction of others
          end if
       end do
-      proven = excess > CLEAR*work_size .and. excess > MANY_TIMES*taken .and. excess > SOME_TIMES*handed_on
+      proven = excess > CLEAR*work_size .and. excess > MANY_TIMES*taken .and. excess > SOME_TIMES*handed_on + rounding
    end subroutine motion_excess
 
    !> What the digits of the deck may make each row see of a motion.

@@ -197,7 +197,7 @@ contains
       associate (v => solution%inner%motion)
          if (.not. sum(v**2) > 0.0_wp) return
          if (.not. is_within_digits(data, rows, v, merge(0.0_wp, solution%state%q, data%line%has_friction))) return
-         call take_out(data, work_along(rows, reshape(v, [size(v), 1])))
+         call take_out(data, work_along(rows, reshape(v/norm2(v), [size(v), 1])))
       end associate
       has_changed = .true.
    end subroutine stop_slow_motion

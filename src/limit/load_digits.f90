@@ -119,9 +119,10 @@ contains
    !> or, where these have next to no part in the motions, of all of them.
    function work_along(rows, motions) result(work)
       type(motion_rows_t), intent(in) :: rows       !< h
-      real(wp), intent(in) :: motions(:, :)         !< (k, motions) V
-      real(wp) :: work(size(motions, 1)), part(size(motions, 1), size(motions, 2)), s(size(motions, 2))
-      real(wp), parameter :: DEPENDENT = 1.0e-10_wp, FARTHEST = 3.0_wp
+      real(wp), intent(in) :: motions(:, :)         !< (k, motions) V, columns of length one, each across the others
+      real(wp) :: work(size(motions, 1)), part(size(motions, 1), size(motions, 2))
+      real(wp) :: s(size(motions, 2)), asked(size(motions, 2))
+      real(wp), parameter :: DEPENDENT = 1.0e-10_wp, FARTHEST = 3.0_wp, SAME = 1.0e-3_wp
       logical :: loaded(rows%n_columns)
       integer(ip) :: k, rank, info
 
@@ -129,11 +130,11 @@ contains
       do k = 1, rows%n_columns
          part(k, :) = merge(motions(k, :), 0.0_wp, loaded(k))
       end do
-      call least_squares(matmul(transpose(part), part), matmul(rows%work, motions), s, DEPENDENT, rank, info)
+      asked = matmul(rows%work, motions)
+      call least_squares(matmul(transpose(part), part), asked, s, DEPENDENT, rank, info)
       work = matmul(part, s)
-      if (info /= 0 .or. .not. norm2(work) <= FARTHEST*norm2(matmul(rows%work, motions))) then
-         work = matmul(motions, matmul(rows%work, motions))
-      end if
+      if (info == 0 .and. norm2(work) <= FARTHEST*norm2(asked) .and. norm2(matmul(work, part) - asked) <= SAME*norm2(asked)) return
+      work = matmul(motions, asked)
    end function work_along
 
    !> Of each motion, whether its body has loads.

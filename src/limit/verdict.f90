@@ -77,7 +77,7 @@ contains
          again = is_doubtful
          if (is_doubtful) then
             associate (v => certificate%motion)
-               call take_out(data, work_along(motions, reshape(v, [size(v), 1])))
+               call take_out(data, work_along(motions, reshape(v/norm2(v), [size(v), 1])))
             end associate
          else if (certificate%verdict == BALANCE_POSSIBLE) then
             rest = motions
