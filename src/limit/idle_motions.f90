@@ -283,7 +283,8 @@ contains
             if (data%line%tangential(j) == i) force(i) = tau(j)*data%line%weight(j) ! what friction there may hold
          end associate
       end do
-      if (.not. any(holds .and. force > NO_FORCE*largest .and. force <= MOST_BALANCE*largest)) return
+      if (.not. any(holds .and. force > NO_FORCE*largest .and. force <= merge(MOST_BALANCE, MOST_PART, &
+                    data%line%law(data%line%point)%kind == FRICTION_NONE)*largest)) return
       call note_digits(data%fem, data%rows, data%line, rows)
       if (.not. any(rows%doubt > 0.0_wp)) return
       ! by their arms small forces balance what tilted normals of large ones make
