@@ -31,7 +31,7 @@ module atrito_increment
    use atrito_idle_motions, only: settle_idle_motions, stop_slow_motion
    use atrito_kinds, only: ip, wp
    use atrito_ladder, only: RUNGS, is_tried, controls_of_rung, rung_text
-   use atrito_number_range, only: explain_range
+   use atrito_number_range, only: explain_range, is_out_of_range
    use atrito_other_solutions, only: find_others
    use atrito_outer_loop, only: FREE_MOTION
    use atrito_picard_loop, only: is_too_much
@@ -76,24 +76,26 @@ contains
       controls%most_factorisations = data%most_factorisations
       controls%logs_solves = associated(data%viewer)
       call solve_one_form(data, data%contact_form, controls, store, results, solution, status)
-      if (results%scene%near_elements .and. .not. is_solved(results, status)) then
-         call solve_without_near(data, controls, store, results, solution, status)
-      end if
-      idle_form = data%contact_form
-      if (.not. allocated(solution%inner%undetermined)) idle_form = CONTACT_AUTO
-      if (is_ok(status) .and. .not. is_solved(results, status)) then
-         call climb(data, asked_form, controls, store, results, solution, idle_form)
-      end if
-      if (is_ok(status) .and. .not. is_solved(results, status) .and. data%line%has_friction .and. idle_form /= CONTACT_AUTO) then
-         ! A thin wedge lets out what nothing presses into it. With friction it may hold it as well, which the rungs would have
-         ! found: now the least motion goes as far as it must.
-         data%lets_out = .true.
-         call attempt(data, idle_form, controls, store, results, solution, tried, found)
-         data%lets_out = .false.
+      if (.not. is_solved(results, status)) call explain_range(data, results, status)
+      if (.not. is_out_of_range(results)) then              ! else no attempt can help
+         if (results%scene%near_elements .and. .not. is_solved(results, status)) then
+            call solve_without_near(data, controls, store, results, solution, status)
+         end if
+         idle_form = data%contact_form
+         if (.not. allocated(solution%inner%undetermined)) idle_form = CONTACT_AUTO
+         if (is_ok(status) .and. .not. is_solved(results, status)) then
+            call climb(data, asked_form, controls, store, results, solution, idle_form)
+         end if
+         if (is_ok(status) .and. .not. is_solved(results, status) .and. data%line%has_friction .and. idle_form /= CONTACT_AUTO) then
+            ! A thin wedge lets out what nothing presses into it. With friction it may hold it as well, which the rungs would have
+            ! found: now the least motion goes as far as it must.
+            data%lets_out = .true.
+            call attempt(data, idle_form, controls, store, results, solution, tried, found)
+            data%lets_out = .false.
+         end if
       end if
       if (associated(data%viewer)) call data%viewer%view(data, results, solution)
       if (.not. data%keeps) call release_condensed(data, store)
-      if (.not. is_solved(results, status)) call explain_range(data, results, status)
    end subroutine solve_increment
 
    !> Whether an increment has a solution: the outer loop converged and the final check holds.

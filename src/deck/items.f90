@@ -4,7 +4,7 @@
 module atrito_items
    use atrito_deck, only: deck_t, card_t, option_t, token_t, token_text, part_of, is_empty_token, is_quoted, keyword_name, &
                           reading_order, data_line_t, line_item
-   use atrito_diagnostics, only: report_error
+   use atrito_diagnostics, only: report_error, report_note
    use atrito_expression_names, only: is_name, is_reserved_name, next_name, reserved_names
    use atrito_expressions, only: expression_fault_t, evaluate_expression
    use atrito_growth, only: make_room
@@ -247,6 +247,11 @@ contains
             call read_real(text, value, outcome)
          end if
          ok = outcome == NUMBER_OK
+         if (ok .and. .not. (is_whole .or. abs(value) > 0.0_wp)) then
+            if (scan(text(:scan(text//'e', 'eEdD') - 1), '123456789') > 0) then
+               call report_note(deck, token, 'N-ZERO', text//' is less than the smallest real: it is 0', keyword=keyword)
+            end if
+         end if
          if (ok) return
          noun = trim(merge('an integer', 'a real    ', is_whole))
          select case (outcome)

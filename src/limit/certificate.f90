@@ -24,7 +24,7 @@ module atrito_certificate
    use atrito_clp, only: solve_linear_program
    use atrito_contact_line, only: contact_line_t, pressure_of, friction_bound
    use atrito_joined_sets, only: find_lowest, join_sets
-   use atrito_kinds, only: ip, wp
+   use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_linear_program, only: linear_solution_t, LP_BY_SIMPLEX, LP_BY_BARRIER, LP_OPTIMAL, LP_NOT_AVAILABLE
    use atrito_motion_polish, only: polish_motion
    use atrito_motion_rows, only: motion_rows_t
@@ -314,7 +314,7 @@ contains
    !>
    !> proven where excess > CLEAR of the work of all loads, > MANY_TIMES taken, and > SOME_TIMES handed_on. A bilateral row may pull
    !> and push, so |N_k v| counts. What a row sees of a motion is known to the digits of the deck (rows%doubt): a resistance within
-   !> them is one of no MANY_TIMES, but counts in handed_on.
+   !> them is one of no MANY_TIMES, but counts in handed_on. What round-off of the rates takes is no proof either.
    subroutine motion_excess(rows, line, body_force, v, excess, proven)
       type(motion_rows_t), intent(in) :: rows    !< G, and the work of the loads on each motion
       type(contact_line_t), intent(in) :: line   !< points, weights, laws and averages are read
@@ -322,7 +322,7 @@ contains
       real(wp), intent(in) :: v(:)               !< (k) [L]
       real(wp), intent(out) :: excess            !< [F L]
       logical, intent(out) :: proven             !< no forces can balance the loads
-      real(wp) :: rate(rows%n), terms(rows%n), by_friction(line%n), known_work, work_size, taken, handed_on, resisted
+      real(wp) :: rate(rows%n), terms(rows%n), by_friction(line%n), known_work, work_size, taken, handed_on, resisted, rounding
       real(wp) :: unsure(rows%n), rubbed(line%n)    ! by digits: rates, and of friction
       integer(ip) :: i, j
 
@@ -340,11 +340,16 @@ contains
       call friction_work(line, unsure, rubbed)
       taken = 0.0_wp
       handed_on = 0.0_wp
+      rounding = 0.0_wp
       do i = 1, rows%n
          if (line%normal(line%point(i)) /= i) cycle
          resisted = rate(i) + by_friction(line%point(i))
          if (line%point(i) > line%n - line%n_bilateral) resisted = abs(rate(i))
-         if (resisted <= ROUND_OFF*(terms(i) + by_friction(line%point(i)))) cycle
+         if (resisted <= ROUND_OFF*(terms(i) + by_friction(line%point(i)))) then
+            if (terms(i) > 0.0_wp) rounding = rounding + EPS_MACH*terms(i) &
+                                              *maxval(body_force(rows%column(rows%first(i):rows%first(i + 1) - 1)))
+            cycle
+         end if
          if (rows%first(i + 1) > rows%first(i)) then
             associate (forces => body_force(rows%column(rows%first(i):rows%first(i + 1) - 1)))
                if (resisted > unsure(i) + rubbed(line%point(i))) taken = taken + resisted*minval(forces)
@@ -354,7 +359,7 @@ contains
             taken = taken + resisted*maxval(body_force)      ! its pressure only raises the friction of others
          end if
       end do
-      proven = excess > CLEAR*work_size .and. excess > MANY_TIMES*taken .and. excess > SOME_TIMES*handed_on
+      proven = excess > CLEAR*work_size .and. excess > MANY_TIMES*taken .and. excess > SOME_TIMES*handed_on + rounding
    end subroutine motion_excess
 
    !> What a unit of each pressure force takes by friction, at its own point and where it is averaged; and what known ones take.

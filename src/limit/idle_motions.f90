@@ -10,14 +10,13 @@ module atrito_idle_motions
    use atrito_certificate, only: certificate_t, BALANCE_IMPOSSIBLE
    use atrito_contact_line, only: friction_bound
    use atrito_contact_solution, only: contact_solution_t
-   use atrito_dense, only: eigen_symmetric
-   use atrito_dense_blocks, only: factor_in_blocks
+   use atrito_digit_turns, only: turn_rows
    use atrito_friction_law, only: FRICTION_NONE
-   use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, wp
    use atrito_least_motions, only: measure_motions, take_least, take_rounding_off
-   use atrito_load_digits, only: is_within_digits, take_out
+   use atrito_load_digits, only: is_within_digits, take_out, work_along
    use atrito_motion_rows, only: motion_rows_t, build_motion_rows, note_digits, join_motions, MOST_PART
+   use atrito_null_motions, only: find_idle, MOST_MOTIONS
    use atrito_own_axes, only: prove_in_own_axes
    use atrito_scene_data, only: scene_data_t
    use atrito_sparse_rows, only: add_transposed, multiply_rows, transposed_sizes
@@ -25,9 +24,8 @@ module atrito_idle_motions
    private
    public :: settle_idle_motions, stop_slow_motion
 
-   integer(ip), parameter :: MOST_MOTIONS = 300_ip  !< of a group: its null space takes their cube of operations
-   real(wp), parameter :: NULL_MOTION = 1.0e-14_wp  !< square of what rows see of an idle motion, over that of the others
    real(wp), parameter :: NO_FORCE = 1.0e-13_wp     !< of the largest force on bodies that touch: round-off
+   real(wp), parameter :: MOST_BALANCE = 0.1_wp     !< of the largest force, what balances tilts of normals
    real(wp), parameter :: DOUBTS = 5.0_wp           !< of a normal, which a force may be off by, over the largest one
    real(wp), parameter :: MOST_DOUBT = 1.0e-9_wp    !< that balances leave
    real(wp), parameter :: BALANCED = 1.0e-8_wp      !< of the forces on a body, for the final check
@@ -198,7 +196,7 @@ contains
       associate (v => solution%inner%motion)
          if (.not. abs(dot_product(v, rows%work)) > 0.0_wp) return   ! loads that do no work lose none
          if (.not. is_within_digits(data, rows, v, merge(0.0_wp, solution%state%q, data%line%has_friction))) return
-         call take_out(data, v*(dot_product(v, rows%work)/sum(v**2)))
+         call take_out(data, work_along(rows, reshape(v/norm2(v), [size(v), 1])))
       end associate
       has_changed = .true.
    end subroutine stop_slow_motion
@@ -247,18 +245,19 @@ contains
       logical, intent(out) :: has_changed
       type(certificate_t) :: certificate
       real(wp) :: most(rows%n_columns), sizes(rows%n_columns)
+      type(motion_rows_t) :: rest                   ! with the work of all forces
       integer(ip) :: k
 
-      most = rows%work
-      call add_transposed(rows, -1.0_wp, solution%state%q, most)
-      most = matmul(idle, matmul(most, idle))
+      rest = rows
+      call add_transposed(rows, -1.0_wp, solution%state%q, rest%work)
+      most = matmul(idle, matmul(rest%work, idle))
       sizes = rows%work_size + transposed_sizes(rows, solution%state%q)
       sizes = [(maxval(sizes, mask=rows%body == rows%body(k)), k=1, rows%n_columns)]
       has_changed = any(abs(most) > NO_FORCE*sizes) .and. all(abs(most) <= BALANCED*sizes)
       if (.not. has_changed) return
       call prove_in_own_axes(data%fem, data%rows, data%line, data%f, certificate)
       if (certificate%verdict == BALANCE_IMPOSSIBLE) has_changed = is_within_digits(data, rows, certificate%motion, certificate%q)
-      if (has_changed) call take_out(data, most)
+      if (has_changed) call take_out(data, work_along(rest, idle))
       solution%converged = has_changed
    end subroutine clear_idle_loads
 
@@ -273,6 +272,7 @@ contains
       real(wp), intent(in) :: tau(:)                !< friction bounds at the points [F/L^2]
       type(contact_solution_t), intent(in) :: solution
       logical, intent(out) :: has_changed
+      real(wp) :: arm(rows%n)                       ! size of a body in lengths of the point
       real(wp) :: largest(rows%n), force(rows%n)    ! that each row bears or may bear by friction
       type(motion_rows_t) :: rest                   ! with the work of what is left without the small forces
       logical :: is_sure(rows%n), is_due            ! larger forces than those that are dropped in any case
@@ -287,9 +287,16 @@ contains
             if (data%line%tangential(j) == i) force(i) = tau(j)*data%line%weight(j) ! what friction there may hold
          end associate
       end do
-      if (.not. any(holds .and. force > NO_FORCE*largest .and. force <= MOST_PART*largest)) return
+      if (.not. any(holds .and. force > NO_FORCE*largest .and. force <= merge(MOST_BALANCE, MOST_PART, &
+                    data%line%law(data%line%point)%kind == FRICTION_NONE)*largest)) return
       call note_digits(data%fem, data%rows, data%line, rows)
       if (.not. any(rows%doubt > 0.0_wp)) return
+      ! by their arms small forces balance what tilted normals of large ones make
+      arm = [(maxval([1.0_wp, data%fem%bodies%list(rows%body(rows%column(rows%first(i):rows%first(i + 1) - 1)))%size &
+                      /data%rows%reach(data%line%point(i))]), i=1, rows%n)]
+      is_sure = holds .and. (force > min(MOST_BALANCE, rows%doubt*arm)*largest .or. .not. rows%doubt > 0.0_wp)
+      if (any(holds .and. .not. is_sure)) call turn_rows(data, rows, group, is_sure, has_changed)
+      if (has_changed) return
       is_sure = holds
       is_due = .false.
       do i = 1, rows%n
@@ -309,7 +316,7 @@ contains
       call add_transposed(rows, -1.0_wp, merge(solution%state%q, 0.0_wp, is_sure .or. .not. holds), rest%work)
       associate (most => matmul(more, matmul(rest%work, more))) ! in which they work most
          if (.not. is_within_digits(data, rest, most, merge(solution%state%q, 0.0_wp, is_sure))) return
-         call take_out(data, most)
+         call take_out(data, work_along(rest, more))
       end associate
       has_changed = .true.
    end subroutine doubt_loads
@@ -340,76 +347,5 @@ contains
          end associate
       end do
    end function of_large_group
-
-   !> The null space of the rows that hold, group by group; of those with more than MOST_MOTIONS none is sought.
-   !>
-   !> v is idle when G_i v = 0 for all rows i that hold, so when v'A v = 0 with A = sum_i G_i'G_i, which is positive semidefinite:
-   !> the idle motions of a group are the eigenvectors of its A whose eigenvalue is zero. A row has entries in one group alone, so a
-   !> group with g motions takes g^3 operations whatever there is beside it. Eigenvalues are squares of what the rows see of a
-   !> motion of length one, which is why NULL_MOTION, beside the largest, is a part of 1e-7 in lengths.
-   subroutine find_idle(rows, holds, group, idle)
-      type(motion_rows_t), intent(in) :: rows
-      logical, intent(in) :: holds(:)               !< (m)
-      integer(ip), intent(in) :: group(:)           !< (k)
-      real(wp), allocatable, intent(out) :: idle(:, :) !< (k, motions), columns of length one
-      real(wp) :: found(size(group), size(group))
-      real(wp), allocatable :: a(:, :), values(:)
-      integer(ip), allocatable :: first(:), member(:), of_group(:), list(:)
-      integer(ip) :: place(size(group)), g, i, j, n, info, d, e
-
-      n = 0
-      allocate (of_group(rows%n), source=0_ip)
-      do i = 1, rows%n
-         if (holds(i) .and. rows%first(i + 1) > rows%first(i)) of_group(i) = group(rows%column(rows%first(i)))
-      end do
-      call list_holders(rows%n_columns, reshape(of_group, [1_ip, rows%n]), first, member)
-      do g = 1, rows%n_columns
-         if (group(g) /= g) cycle
-         list = pack([(i, i=1, rows%n_columns)], group == g)
-         if (size(list) > MOST_MOTIONS) cycle
-         place(list) = [(i, i=1, size(list, kind=ip))]
-         allocate (a(size(list), size(list)), source=0.0_wp)
-         do j = first(g), first(g + 1) - 1
-            ! Adds G_i' G_i of a row to the matrix of its group.
-            do d = rows%first(member(j)), rows%first(member(j) + 1) - 1
-               do e = rows%first(member(j)), rows%first(member(j) + 1) - 1
-                  a(place(rows%column(d)), place(rows%column(e))) = a(place(rows%column(d)), place(rows%column(e))) &
-                                                                    + rows%value(d)*rows%value(e)
-               end do
-            end do
-         end do
-         if (may_be_singular(a)) then
-            allocate (values(size(list)))
-            call eigen_symmetric(a, values, info)
-            do j = 1, size(list, kind=ip)
-               if (info /= 0 .or. values(j) > NULL_MOTION*values(size(list))) exit
-               n = n + 1
-               found(:, n) = 0.0_wp
-               found(list, n) = a(:, j)
-            end do
-            deallocate (values)
-         end if
-         deallocate (a)
-      end do
-      idle = found(:, :n)
-   end subroutine find_idle
-
-   !> Whether A may have an eigenvalue that is none. It has not where A - s 1 has a Cholesky factor, s being CLEARLY_HELD of the
-   !> norm of A, far more than the rounding of the factor. That takes a thirtieth of the time of the eigenvectors, and few groups
-   !> are idle.
-   logical function may_be_singular(a)
-      real(wp), intent(in) :: a(:, :)
-      real(wp), parameter :: CLEARLY_HELD = 1.0e-10_wp
-      real(wp) :: shifted(size(a, 1), size(a, 2)), shift
-      integer(ip) :: j, failed
-
-      shifted = a
-      shift = CLEARLY_HELD*maxval(sum(abs(a), dim=1))
-      do j = 1, size(a, 1, kind=ip)
-         shifted(j, j) = a(j, j) - shift
-      end do
-      call factor_in_blocks(shifted, failed)
-      may_be_singular = failed > 0
-   end function may_be_singular
 
 end module atrito_idle_motions

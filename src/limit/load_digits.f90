@@ -14,7 +14,7 @@
 !> of them. Normals along an axis, and decks that are not rounded to digits, leave nothing in doubt.
 module atrito_load_digits
    use atrito_contact_rows, only: vector_of_entry
-   use atrito_dense, only: solve_lu
+   use atrito_dense, only: least_squares, solve_lu
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: face_nodes
    use atrito_motion_rows, only: motion_rows_t, contact_digit_error, DIGIT_ERRORS, MOST_PART
@@ -23,7 +23,7 @@ module atrito_load_digits
    use atrito_sparse_rows, only: transposed_sizes
    implicit none (type, external)
    private
-   public :: is_within_digits, take_out
+   public :: is_within_digits, rate_of_point, work_along, is_loaded, take_out
 
    real(wp), parameter :: ALONG_AXIS = 1.0e-12_wp   !< part of a normal
 
@@ -35,7 +35,7 @@ contains
       type(motion_rows_t), intent(in) :: rows       !< G, and the work of the loads on each motion
       real(wp), intent(in) :: v(:)                  !< (k) its amplitudes
       real(wp), intent(in) :: q(:)                  !< (m) forces of the rows, 0: of those that do not hold [F]
-      real(wp) :: allowed, most, along, sizes(rows%n_columns), turn(0:data%fem%bodies%n)
+      real(wp) :: allowed, most, sizes(rows%n_columns), turn(0:data%fem%bodies%n)
       integer(ip) :: first(data%fem%bodies%n + 1), b, i, j, k
 
       first = first_motions(data%fem%bodies)
@@ -54,11 +54,7 @@ contains
          associate (nodes => data%rows%node(data%rows%first(j):data%rows%first(j + 1) - 1))
             allowed = allowed + abs(q(i))*maxval(turn(data%fem%bodies%of_node(nodes)))
          end associate
-         along = 0.0_wp
-         do k = data%rows%first(j), data%rows%first(j + 1) - 1
-            along = along + rate_of_entry()
-         end do
-         allowed = allowed + abs(q(i)*along)/data%rows%reach(j)
+         allowed = allowed + abs(q(i)*rate_of_point(data, j, data%rows%tangent(:, j), v))/data%rows%reach(j)
       end do
       do i = 1, data%step%element_loads%n
          allowed = allowed + doubt_of_face(i)
@@ -96,24 +92,60 @@ contains
          end associate
       end function doubt_of_face
 
-      !> What entry k of point j adds to its slip in a motion of the bodies.
-      real(wp) function rate_of_entry() result(rate)
-         real(wp) :: vector(2), z(2, 3)
-         integer(ip) :: b, mode, dof
-
-         rate = 0.0_wp
-         b = data%fem%bodies%of_node(data%rows%node(k))
-         if (b == 0) return
-         vector = vector_of_entry(data%rows, j, k, data%rows%tangent(:, j))
-         z = modes_at_node(data%fem, b, data%rows%node(k))
-         do mode = 1, first(b + 1) - first(b)
-            do dof = 1, 2
-               rate = rate + vector(dof)*z(dof, mode)*v(first(b) + mode - 1)
-            end do
-         end do
-      end function rate_of_entry
-
    end function is_within_digits
+
+   !> How fast the sides of point j move along a direction in a motion of the bodies, the slave's less the master's.
+   pure real(wp) function rate_of_point(data, j, direction, v) result(rate)
+      type(scene_data_t), intent(in) :: data        !< rows, bodies
+      integer(ip), intent(in) :: j
+      real(wp), intent(in) :: direction(2)          !< the normal or the tangent of the point
+      real(wp), intent(in) :: v(:)                  !< (k) amplitudes of the motion
+      real(wp) :: z(2, 3)
+      integer(ip) :: first(data%fem%bodies%n + 1), b, k, n
+
+      first = first_motions(data%fem%bodies)
+      rate = 0.0_wp
+      do k = data%rows%first(j), data%rows%first(j + 1) - 1
+         b = data%fem%bodies%of_node(data%rows%node(k))
+         if (b == 0) cycle
+         n = first(b + 1) - first(b)
+         z = modes_at_node(data%fem, b, data%rows%node(k))
+         rate = rate + dot_product(vector_of_entry(data%rows, j, k, direction), matmul(z(:, :n), v(first(b):first(b + 1) - 1)))
+      end do
+   end function rate_of_point
+
+   !> The work h' on the motions of the bodies that is to be taken out where the loads are to do none on the motions V: the least with
+   !> V'h' = V'h among those that leave bodies without loads as they are, h' = P V s, P taking the loaded bodies, V'P V s = V'h;
+   !> or, where these have next to no part in the motions, of all of them.
+   function work_along(rows, motions) result(work)
+      type(motion_rows_t), intent(in) :: rows       !< h
+      real(wp), intent(in) :: motions(:, :)         !< (k, motions) V, columns of length one, each across the others
+      real(wp) :: work(size(motions, 1)), part(size(motions, 1), size(motions, 2))
+      real(wp) :: s(size(motions, 2)), asked(size(motions, 2))
+      real(wp), parameter :: DEPENDENT = 1.0e-10_wp, FARTHEST = 3.0_wp, SAME = 1.0e-3_wp
+      logical :: loaded(rows%n_columns)
+      integer(ip) :: k, rank, info
+
+      loaded = is_loaded(rows)
+      do k = 1, rows%n_columns
+         part(k, :) = merge(motions(k, :), 0.0_wp, loaded(k))
+      end do
+      asked = matmul(rows%work, motions)
+      call least_squares(matmul(transpose(part), part), asked, s, DEPENDENT, rank, info)
+      work = matmul(part, s)
+      if (info == 0 .and. norm2(work) <= FARTHEST*norm2(asked) .and. norm2(matmul(work, part) - asked) <= SAME*norm2(asked)) return
+      work = matmul(motions, asked)
+   end function work_along
+
+   !> Of each motion, whether its body has loads.
+   pure function is_loaded(rows) result(loaded)
+      type(motion_rows_t), intent(in) :: rows
+      logical :: loaded(rows%n_columns), of_body(max(0_ip, maxval(rows%body)))
+
+      of_body = .false.
+      of_body(pack(rows%body, rows%work_size > 0.0_wp)) = .true.
+      loaded = of_body(rows%body)
+   end function is_loaded
 
    !> Takes work h on the motions of the bodies out of the loads: of all forces with that work the least, Z (Z'Z)^-1 h. The loads of
    !> the increment are no sum of the bases of its step any more; the next increment has its own.

@@ -10,7 +10,7 @@ module atrito_verdict
    use atrito_free_motion, only: free_motion_text
    use atrito_dense, only: null_space
    use atrito_kinds, only: ip, wp
-   use atrito_load_digits, only: is_within_digits, take_out
+   use atrito_load_digits, only: is_loaded, is_within_digits, take_out, work_along
    use atrito_mechanism, only: mechanism_t, describe_motion
    use atrito_model, only: model_t
    use atrito_motion_rows, only: motion_rows_t, build_motion_rows, part_from_held
@@ -85,11 +85,12 @@ contains
          again = is_doubtful
          if (is_doubtful) then
             associate (v => certificate%motion)
-               call take_out(data, v*(dot_product(v, motions%work)/sum(v**2)))
+               call take_out(data, work_along(motions, reshape(v/norm2(v), [size(v), 1])))
             end associate
          else if (certificate%verdict == BALANCE_POSSIBLE) then
             rest = motions
             call add_transposed(motions, -1.0_wp, certificate%q, rest%work)
+            where (.not. is_loaded(motions)) rest%work = 0.0_wp
             again = any(abs(rest%work) > NO_LOAD*(motions%work_size + transposed_sizes(motions, certificate%q)))
             if (again) again = is_within_digits(data, rest, rest%work/maxval(abs(rest%work)), certificate%q)
             if (again) call take_out(data, rest%work)

@@ -33,6 +33,8 @@ module atrito_multiplier_distance
    end type distance_t
 
    real(wp), parameter :: NO_FORCE = 1.0e-12_wp  !< of the forces on the bodies that meet: none
+   !> Of the forces on the bodies that it touches, what a body has that is pulled by no less than their round-off.
+   real(wp), parameter :: IDLE = 1.0e-6_wp
    real(wp), parameter :: BALANCED = 1.0e-9_wp   !< of the forces on a body that move it: nothing is missing
    real(wp), parameter :: NO_FORCE_AFTER = 1.0e-14_wp !< of the force in the increment before
    !> The same of a bilateral row: it may be where nothing moves, and nothing tells its noise.
@@ -64,8 +66,9 @@ contains
       distance%bound = bound_distance()
       ! bodies without load that went clear of each other have nothing that a pull could be compared with
       if (all(system%load == 0.0_wp) .and. all(abs(q) <= multipliers%noise)) return
-      distance%pull = pull_distance(of_body)
       distance%drive = pull_distance(spread(maxval(of_body), 1, size(of_body)))
+      call raise_to_neighbours(system, IDLE, of_body)
+      distance%pull = pull_distance(of_body)
 
    contains
 
@@ -173,25 +176,36 @@ contains
       class(contact_system_t), intent(in) :: system !< A, B, loads, flexibilities
       real(wp), intent(in) :: q(:)
       real(wp), intent(out) :: of_body(:)        !< (bodies) [F]
-      real(wp) :: force(system%n), own(size(of_body))
-      integer(ip) :: i, k
+      real(wp) :: force(system%n)
+      integer(ip) :: i
 
       force = 0.0_wp
       call add_transposed(system%rows, 1.0_wp, q, force)
-      own = 0.0_wp
+      of_body = 0.0_wp
       do i = 1, system%n - system%k
-         own(system%body(i)) = max(own(system%body(i)), abs(force(i)), abs(system%load(i)))
+         of_body(system%body(i)) = max(of_body(system%body(i)), abs(force(i)), abs(system%load(i)))
       end do
-      if (any(own <= 0.0_wp)) call measure_rigid_bodies(system, q, own)
-      of_body = own
+      if (any(of_body <= 0.0_wp)) call measure_rigid_bodies(system, q, of_body)
+      call raise_to_neighbours(system, NO_FORCE, of_body)
+   end subroutine measure_bodies
+
+   !> At least a part of the forces on the bodies that each touches.
+   subroutine raise_to_neighbours(system, part, of_body)
+      class(contact_system_t), intent(in) :: system
+      real(wp), intent(in) :: part
+      real(wp), intent(inout) :: of_body(:)      !< (bodies) [F]
+      real(wp) :: own(size(of_body))
+      integer(ip) :: i, k
+
+      own = of_body
       do i = 1, system%rows%n
          associate (bodies => system%body(system%rows%column(system%rows%first(i):system%rows%first(i + 1) - 1)))
             do k = 1, size(bodies, kind=ip)
-               of_body(bodies(k)) = max(of_body(bodies(k)), NO_FORCE*maxval(own(bodies)))
+               of_body(bodies(k)) = max(of_body(bodies(k)), part*maxval(own(bodies)))
             end do
          end associate
       end do
-   end subroutine measure_bodies
+   end subroutine raise_to_neighbours
 
    !> The same of bodies without displacements: the largest load on a motion, and contact force along one.
    !>

@@ -38,7 +38,7 @@ module atrito_final_check
    real(wp), parameter :: ROUND_OFFS = 100.0_wp          !< times eps |K||u_e|
    real(wp), parameter :: BALANCE_TOLERANCE = 1.0e-8_wp  !< of the sum of the forces on a body
    real(wp), parameter :: ROW_TOLERANCE = 1.0e-9_wp      !< of what a bilateral row asks for
-   real(wp), parameter :: ROUND_OFF_BESIDE = 1.0e-14_wp  !< of the forces on a body that touches one without load
+   real(wp), parameter :: ROUND_OFF_BESIDE = 1.0e-13_wp  !< of the forces on a body that touches one without load
 
 contains
 

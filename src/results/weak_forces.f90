@@ -44,7 +44,7 @@ contains
       integer(ip) :: b
 
       allocate (round_off(2, 1), source=0.0_wp)
-      holds = bodies_hold(fem, f, contact, held, residual, round_off) .and. pairs_hold(f, held, residual, sizes, round_off)
+      holds = bodies_hold(fem, f, contact, held, residual, sizes, round_off) .and. pairs_hold(f, held, residual, sizes, round_off)
       if (holds) return
       deallocate (round_off)
       allocate (round_off(2, fem%mesh%n_nodes))
@@ -54,7 +54,7 @@ contains
             round_off(:, nodes) = round_off(:, nodes) + NONE_OF_HAD*had_force(sizes%had, b)
          end associate
       end do
-      holds = bodies_hold(fem, f, contact, held, residual, round_off) .and. pairs_hold(f, held, residual, sizes, round_off)
+      holds = bodies_hold(fem, f, contact, held, residual, sizes, round_off) .and. pairs_hold(f, held, residual, sizes, round_off)
    end function weak_parts_hold
 
    !> What is round-off in displacements of which the motion of the body was taken out [L].
@@ -87,18 +87,28 @@ contains
       end do
    end function uncertain_part
 
-   !> Each body by the largest load, contact force or reaction at a node of it.
-   pure logical function bodies_hold(fem, f, contact, held, residual, round_off) result(holds)
+   !> Each body by the largest load, contact force or reaction at a node of it, or force of a row that it takes part in: rows of a
+   !> node, as of contact and of a rigid body, may leave nothing of each other.
+   pure logical function bodies_hold(fem, f, contact, held, residual, sizes, round_off) result(holds)
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: f(:, :), contact(:, :), residual(:, :)
       logical, intent(in) :: held(:, :)
+      type(contact_sizes_t), intent(in) :: sizes
       real(wp), intent(in) :: round_off(:, :)    !< (2, n_nodes), or (2, 1) for all [F]
-      real(wp) :: force, excess
-      integer(ip) :: b, i
+      real(wp) :: force, excess, of_rows(0:fem%bodies%n)
+      integer(ip) :: b, i, j
 
+      of_rows = 0.0_wp
+      do j = 1, sizes%rows%n
+         do i = sizes%rows%first(j), sizes%rows%first(j + 1) - 1
+            associate (most => of_rows(fem%bodies%of_node(sizes%rows%node(i))))
+               most = max(most, sizes%force(j))
+            end associate
+         end do
+      end do
       holds = .true.
       do b = 1, fem%bodies%n
-         force = 0.0_wp
+         force = of_rows(b)
          excess = 0.0_wp
          associate (nodes => fem%bodies%list(b)%nodes)
             do i = 1, size(nodes, kind=ip)

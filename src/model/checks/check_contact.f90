@@ -4,6 +4,7 @@ module atrito_check_contact
    use atrito_contact_roles, only: follows_polygon, polygon_angle, STIFFER
    use atrito_deck, only: token_t
    use atrito_diagnostics, only: report_error, report_warning, report_note
+   use atrito_element_table, only: DEGREE_OF
    use atrito_build_context, only: build_context_t, ids_text, place_text, has_errors, is_invalid
    use atrito_face_geometry, only: has_quarter_node
    use atrito_faces, only: chain_report_t, face_list_t, face_normal, node_elements_t
@@ -22,8 +23,9 @@ module atrito_check_contact
 
    real(wp), parameter :: FACING = -1.0e-3_wp          !< cosine of normals of faces that see each other (atrito_master)
 
-   !> Distance of slave nodes over that of the master's from which on NODAL points are too few: 3 elements on 2 are not.
-   real(wp), parameter :: COARSE = 1.6_wp
+   !> Distance of slave nodes over that of the master's from which on NODAL points are too few: of faces with two nodes 3 elements on
+   !> 2 are not; of those with three only the finer side has enough of them, since their forces are not those of a uniform pressure.
+   real(wp), parameter :: COARSE(2) = [1.6_wp, 0.8_wp]
 
 contains
 
@@ -330,6 +332,7 @@ contains
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: i                     !< the pair
       character(len=:), allocatable :: sides           ! of a pair that the deck does not give
+      integer(ip) :: degree                            ! of the slave's faces
 
       sides = ''
       associate (points => model%points(i), pair => model%pairs(i), place => context%slaves(i))
@@ -341,11 +344,14 @@ contains
             call report_note(context%deck, place, 'N-MORTAR', 'the nodes of the two sides '//sides// &
                              'do not match: QUADRATURE=MORTAR', keyword='CONTACT PAIR')
          end if
-         if (points%coarseness > COARSE .and. .not. points%is_mortar) then
+         degree = DEGREE_OF(model%mesh%shape(model%surfaces(pair%slave)%faces%element(1)))
+         if (points%coarseness > COARSE(degree) .and. .not. (points%is_mortar .or. points%matching)) then
             call report_warning(context%deck, place, 'W-COARSE-SLAVE', 'at node ' &
                                 //to_text(model%mesh%node_id(points%coarse_node))//' the nodes of the slave '//sides// &
                                 'lie '//to_text(points%coarseness, 2)//' times as far apart as those of the master, and with '// &
-                                'QUADRATURE=NODAL nothing keeps the master out between them', &
+                                'QUADRATURE=NODAL '//trim(merge('nothing keeps the master out between them           ', &
+                                                                'pressures on faces of three nodes may be off by 40 %', &
+                                                                points%coarseness > COARSE(1))), &
                                 expected='QUADRATURE=MORTAR'//trim(merge(', or the finer side as slave', repeat(' ', 28), &
                                                                          can_be_master())), keyword='CONTACT PAIR')
          end if

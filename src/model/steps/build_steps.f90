@@ -172,7 +172,12 @@ contains
 
          call get_real(deck, line_item(deck, line, item), what, time, ok, default)
          if (ok) call check_time(item, time >= 0.0_wp, time, what, ok)
-         if (ok .and. .not. time > 0.0_wp) time = default
+         if (.not. ok .or. time > 0.0_wp) return
+         time = default
+         if (item == 1 .and. line%n_tokens > 2) then             ! perhaps 0.1 with a comma
+            call report_note(deck, line_item(deck, line, item), 'N-INCREMENT', 'a first increment of 0 is the whole step, '// &
+                             to_text(time), keyword='')
+         end if
       end subroutine get_time
 
       subroutine check_time(item, in_range, time, what, ok)

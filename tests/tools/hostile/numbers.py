@@ -54,6 +54,14 @@ def a_load_near_the_largest_number_that_makes_points_slip(folder):
     return SOLVE + ["--contact", "sparse"]
 
 
+@case((3, 4), RANGE)
+def a_load_near_the_largest_number_on_sides_that_do_not_match(folder):
+    wide = scene(young="1e5", size="2", q="1e308", n=1, step="*CLOAD\nHIGH-TOP, 1, 1e306\n")
+    wide = wide.replace("0, 0\n2, 0\n2, 2\n0, 2\n", "-1, 0\n3, 0\n3, 2\n-1, 2\n")
+    write(folder, wide.replace("HIGH-TOP, 1, 1\n", ""))
+    return SOLVE
+
+
 @case(4, "is free to move")
 def a_motion_that_is_free(folder):
     write(folder, scene(q="-1"))

@@ -161,6 +161,45 @@ for digits in 6 8 10 17; do
       done
    done
 done
+# farthest NAME: the largest displacement.
+farthest() {
+   awk '/^# columns:/ { for (i = 3; i <= NF; i++) place[$i] = i - 2; next } /^#/ { next }
+      { u = $place["u1"]^2 + $place["u2"]^2; if (u > m) m = u } END { printf "%.17g", sqrt(m) }' "$1/nodes.tab"
+}
+# A roller between two races: both normals lie on one line, which rounding tilts; it neither spins nor rolls round until points beside them
+# bear the little moment that this makes.
+for type in CPE4 CPE3; do
+   awk -v digits=17 -v angle=0 -v type=$type -f "$here/races.awk" </dev/null >races-$type.inp
+   run 0 races-$type.inp races-$type --quiet
+   for digits in 4 6 8 10 17; do
+      for angle in 0 30 57.3 114.6; do
+         name=races-$type-$digits-$angle
+         awk -v digits=$digits -v angle=$angle -v type=$type -f "$here/races.awk" </dev/null >"$name.inp"
+         run 0 "$name.inp" "$name" --quiet
+         grep -q 'W-IDLE' "$name.err" || complain "$name: the motions are not told"
+         grep -q 'W-LARGE' "$name.err" && complain "$name: the roller rolls on"
+         near "$name moves by" "$(farthest "$name")" "$(farthest races-$type)" "$(value "10^(1 - $digits) + 1e-9")"
+         near "$name presses with" "$(summary "$name" normal_resultant | sed 1q)" "$(summary races-$type normal_resultant | sed 1q)" 0.02
+      done
+   done
+done
+# A bar that hangs on a disc: what the digits make of the disc's load is taken out of that alone, and the bar stays without a load, in either form.
+for nu in 0 0.3; do
+   for digits in 6 8 17; do
+      # of 8 digits the sparse form by itself does not come to rest
+      [ $digits = 8 ] && forms=dense || forms='dense sparse'
+      for angle in 0 30 114.6; do
+         for form in $forms; do
+            name=hinged-$nu-$digits-$angle-$form
+            awk -v digits=$digits -v angle=$angle -v nu=$nu -f "$here/hinged.awk" </dev/null >"$name.inp"
+            run 0 "$name.inp" "$name" --quiet --contact $form
+            grep -q 'W-IDLE' "$name.err" || complain "$name: the motion is not told"
+            near "$name presses with" "$(summary "$name" normal_resultant)" 20 1e-4
+            near "$name moves by" "$(farthest "$name")" "$(farthest hinged-$nu-6-0-dense)" 1e-4
+         done
+      done
+   done
+done
 # A block in a slot, whose friction holds 2 nu N = 60: a push of 50 it holds, and of one of 70 nothing but rounding, which makes the slot
 # narrower on one side, could hold it.
 for digits in 4 5 6 8 10 17; do

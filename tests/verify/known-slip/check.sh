@@ -143,4 +143,22 @@ near 'total slip, on the way back' "$(frame total shear_resultant 3 2)" -10 1e-9
 near 'total slip, beyond' "$(frame total shear_resultant 3 5)" 10 1e-9
 near 'total slip: work there' "$(frame total dissipation 2 4)" 1 1e-9
 near 'total slip: work back to the middle' "$(value "$(frame total dissipation 3 2) - $(frame total dissipation 2 4)")" -0.8 1e-9
+# A block that a reference node moves: what its rows bear leaves nothing of the contact forces, and both forms say the same. The way there and
+# the way back end in nu N on either side.
+for type in CPE4 CPE8; do
+   for nodes in HIGH HIGH-BOTTOM; do
+      for angle in 0 30; do
+         for pair in 'HIGH-BOTTOM, LOW-TOP' 'LOW-TOP, HIGH-BOTTOM'; do
+            name=seized-$type-$nodes-$angle-${pair%%-*}
+            deck "$(cat "$here/seized.inp")" "TYPE=$type" "NODES=$nodes" "ANGLE=$angle" "PAIR=$pair" >"$name.inp"
+            for form in dense sparse; do run 0 "$name.inp" "$name-$form" --digits 17 --quiet --contact $form; done
+            same_tables "$name, both forms" "$name-dense/contact.tab" "$name-sparse/contact.tab" 1e-8
+            for step in 2 3; do
+               near "$name, step $step: nu N" "$(value "sqrt(($(frame "$name-sparse" shear_resultant $step 1))^2)")" \
+                  "$(value "0.3*$(frame "$name-sparse" normal_resultant $step 1)")" 1e-6
+            done
+         done
+      done
+   done
+done
 finish
