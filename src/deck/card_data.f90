@@ -329,15 +329,20 @@ contains
       logical, intent(inout) :: ok
       character(len=:), allocatable :: word
       integer :: choice, whole
+      logical :: is_foreign
 
       word = upper_case(token_text(deck, token))
       choice = find_choice(item%choices, word)
       whole = 0
-      if (choice == 0 .and. item%name == 'variable') whole = find_choice(item%choices, variable_of_component(word))
+      is_foreign = .false.
+      if (choice == 0 .and. item%name == 'variable') then
+         whole = find_choice(item%choices, variable_of_component(word))
+         is_foreign = is_foreign_variable(word)
+      end if
       if (whole > 0) then
          call report_note(deck, token, 'N-IGNORED', 'variable '//word//' of *'//trim(card%name)//' is written with all '// &
                           'components of '//item%choices(whole)%name)
-      else if (choice == 0 .and. item%name == 'variable' .and. is_foreign_variable(word)) then
+      else if (is_foreign) then
          call report_note(deck, token, 'N-IGNORED', 'variable '//word//' of *'//trim(card%name)//' is not written')
       else if (choice == 0) then
          ok = .false.

@@ -85,7 +85,7 @@ contains
       case default
          call check_level()
       end select
-      call check_parent(deck, order, card)
+      call check_parent()
       if (card%ok) call check_parts(deck, order%parts, card)
 
    contains
@@ -120,6 +120,21 @@ contains
                              'its place between *STEP and *END STEP')
          end if
       end subroutine check_level
+
+      !> *ELASTIC belongs to the *MATERIAL before it; what may stand anywhere may stand between.
+      subroutine check_parent()
+
+         associate (keyword => deck%keywords(card%keyword))
+            if (len(keyword%parent) == 0) then
+               if (keyword%level == LEVEL_BOTH) return
+               order%parent = card%name
+               order%parent_ok = card%ok
+            else if (keyword%parent /= order%parent .and. order%parent /= LOST) then
+               call refuse_card(deck, card, 'E-PARENT', '*'//trim(card%name)//' belongs to no *'//keyword%parent, &
+                                'its place behind *'//keyword%parent)
+            end if
+         end associate
+      end subroutine check_parent
    end subroutine check_order
 
    !> REMOVE, which is reported by itself: no step changes the model.
@@ -147,24 +162,6 @@ contains
          follows_only = order%parent == LOST .or. (keyword%parent == order%parent .and. .not. order%parent_ok)
       end associate
    end function follows_only
-
-   !> *ELASTIC belongs to the *MATERIAL before it; what may stand anywhere may stand between.
-   subroutine check_parent(deck, order, card)
-      type(deck_t), intent(in) :: deck
-      type(order_t), intent(inout) :: order
-      type(card_t), intent(inout) :: card
-
-      associate (keyword => deck%keywords(card%keyword))
-         if (len(keyword%parent) == 0) then
-            if (keyword%level == LEVEL_BOTH) return
-            order%parent = card%name
-            order%parent_ok = card%ok
-         else if (keyword%parent /= order%parent .and. order%parent /= LOST) then
-            call refuse_card(deck, card, 'E-PARENT', '*'//trim(card%name)//' belongs to no *'//keyword%parent, &
-                             'its place behind *'//keyword%parent)
-         end if
-      end associate
-   end subroutine check_parent
 
    !> Checks at the end of the deck that there was a step and that it ended.
    subroutine check_end(deck, order)

@@ -1,10 +1,8 @@
 !> A deck as it was run: all files that it includes in their places, parameters replaced by their values. It runs by itself.
 !>
-!> Notes what of a deck is replaced when it is written as it was run: expressions by their values, *PARAMETER by comments, meshes of
-!> other programs by the names of their copies.
-!>
-!> Asked of the cards as they were read, before instances take copies of them: in their order, each item once. Nothing is reported,
-!> and of a deck with errors nothing is noted: it is not run.
+!> What is replaced is noted (note_edits) as the cards were read, before instances take copies of them, in their order and each item
+!> once: expressions by their values, *PARAMETER by comments, meshes of other programs by the names of their copies. Nothing is
+!> reported, and of a deck with errors nothing is noted: it is not run.
 module atrito_deck_as_run
    use atrito_as_run_names, only: as_run_name, mesh_copy_name
    use atrito_card_data, only: form_applies

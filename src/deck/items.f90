@@ -1,6 +1,6 @@
 !> Values of items and options: what the model's constructors ask of a deck. Failures are reported here, at their place.
 !>
-!> Expressions that stand in a deck: the parameters that they may use, and their faults at their places.
+!> Besides, the expressions that stand in a deck: the parameters that they may use, and their faults at their places.
 module atrito_items
    use atrito_deck, only: deck_t, card_t, option_t, token_t, token_text, part_of, is_empty_token, is_quoted, keyword_name, &
                           reading_order, data_line_t, line_item
@@ -16,9 +16,9 @@ module atrito_items
    use atrito_strings, only: same_name, to_text, upper_case, string_t, join
    implicit none (type, external)
    private
-   public :: get_real, get_integer, get_name, find_option, has_option, option_text, option_word, option_real, option_integer, &
-             refuse_option, check_comma, LONGEST_NAME, evaluate_at, has_own_degree, report_fault, collect_known, put_before, &
-             index_of_parameter, is_known_at
+   public :: get_real, get_integer, get_name, find_option, has_option, option_text, option_word, makes_elements, option_real, &
+             option_integer, refuse_option, check_comma, LONGEST_NAME, evaluate_at, has_own_degree, report_fault, collect_known, &
+             put_before, index_of_parameter, is_known_at
 
    integer, parameter :: LONGEST_NAME = 80
    real(wp), parameter :: ROUND_OFF = 1.0e-12_wp      !< of an expression that is to be whole: 0.1*30
@@ -420,6 +420,16 @@ contains
          end do
       end associate
    end function option_word
+
+   !> Whether a card is an *ELEMENT of a type that begins so: SPRING, or T3D of lines.
+   pure logical function makes_elements(deck, card, beginning)
+      type(deck_t), intent(in) :: deck          !< its keyword table and texts are read
+      type(card_t), intent(in) :: card          !< of any keyword
+      character(len=*), intent(in) :: beginning !< of TYPE=, in capitals
+
+      makes_elements = keyword_name(card) == 'ELEMENT'
+      if (makes_elements) makes_elements = index(option_word(deck, card, 'TYPE'), beginning) == 1
+   end function makes_elements
 
    !> The real value of an option. found: it is given and is a real; otherwise value is untouched (and any fault reported).
    subroutine option_real(deck, card, name, what, value, found)

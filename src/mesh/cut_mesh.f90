@@ -43,7 +43,7 @@ contains
       integer(lp), allocatable :: edge_key(:), inner_key(:)
 
       call begin_refinement(mesh, around, refinement)
-      call list_pieces(mesh, trees, pieces)
+      call list_pieces(pieces)
       trees%leaf_of = pieces%leaf(:pieces%n)
       call number_nodes(mesh, pieces, refinement, edge_key, inner_key)
       call straighten()
@@ -78,51 +78,49 @@ contains
             end do
          end do
       end subroutine straighten
-   end subroutine cut_mesh
 
-   !> The pieces of all leaves: by their element of the deck, then by their middles row by row from its first side.
-   !>
-   !> Places are whole numbers (s, t), 0..SIDE along the sides 1-2 and 1-4 (or 1-3) of the element of the deck: halving loses
-   !> nothing, equal places are equal numbers, and a node that two pieces share is one key, ROW t + s, without a tolerance. The
-   !> middle of 3 or 4 corners is their sum over 3 or 4, taken times 12/16 to stay whole and within the key.
-   subroutine list_pieces(mesh, trees, pieces)
-      type(mesh_t), intent(in) :: mesh
-      type(element_trees_t), intent(in) :: trees
-      type(pieces_t), intent(out) :: pieces
-      integer(ip), allocatable :: leaves(:), order(:)
-      integer(lp), allocatable :: key(:)
-      integer(lp) :: middle(2)
-      integer(ip) :: corners(2, 4, MOST_PIECES), sizes(MOST_PIECES), i, k, n
+      !> The pieces of all leaves: by their element of the deck, then by their middles row by row from its first side.
+      !>
+      !> Places are whole numbers (s, t), 0..SIDE along the sides 1-2 and 1-4 (or 1-3) of the element of the deck: halving loses
+      !> nothing, equal places are equal numbers, and a node that two pieces share is one key, ROW t + s, without a tolerance. The
+      !> middle of 3 or 4 corners is their sum over 3 or 4, taken times 12/16 to stay whole and within the key.
+      subroutine list_pieces(pieces)
+         type(pieces_t), intent(out) :: pieces
+         integer(ip), allocatable :: leaves(:), order(:)
+         integer(lp), allocatable :: key(:)
+         integer(lp) :: middle(2)
+         integer(ip) :: corners(2, 4, MOST_PIECES), sizes(MOST_PIECES), i, k, n
 
-      leaves = list_leaves(trees)
-      n = MOST_PIECES*size(leaves, kind=ip)
-      allocate (pieces%leaf(n), pieces%root(n), pieces%shape(n), pieces%place(2, MOST_NODES, n), key(n))
-      n = 0
-      do i = 1, size(leaves, kind=ip)
-         call cut_leaf(trees, leaves(i), corners, sizes)
-         do k = 1, count(sizes > 0, kind=ip)
-            n = n + 1
-            pieces%leaf(n) = leaves(i)
-            pieces%root(n) = trees%root(leaves(i))
-            pieces%shape(n) = mesh%shape(pieces%root(n))
-            associate (shape => SHAPES(pieces%shape(n)))    ! triangles among quadrilaterals have their degree
-               if (shape%n_corners /= sizes(k)) pieces%shape(n) = sizes(k)*shape%degree
-            end associate
-            call fill_places(pieces%shape(n), corners(:, :sizes(k), k), pieces%place(:, :, n))
-            associate (place => pieces%place(:, :sizes(k), n))
-               middle = (12/sizes(k))*sum(int(place, lp), dim=2)/16  ! places are multiples of 32
-               key(n) = ROW*middle(2) + middle(1)
-            end associate
+         leaves = list_leaves(trees)
+         n = MOST_PIECES*size(leaves, kind=ip)
+         allocate (pieces%leaf(n), pieces%root(n), pieces%shape(n), pieces%place(2, MOST_NODES, n), key(n))
+         n = 0
+         do i = 1, size(leaves, kind=ip)
+            call cut_leaf(trees, leaves(i), corners, sizes)
+            do k = 1, count(sizes > 0, kind=ip)
+               n = n + 1
+               pieces%leaf(n) = leaves(i)
+               pieces%root(n) = trees%root(leaves(i))
+               pieces%shape(n) = mesh%shape(pieces%root(n))
+               associate (shape => SHAPES(pieces%shape(n)))    ! triangles among quadrilaterals have their degree
+                  if (shape%n_corners /= sizes(k)) pieces%shape(n) = sizes(k)*shape%degree
+               end associate
+               call fill_places(pieces%shape(n), corners(:, :sizes(k), k), pieces%place(:, :, n))
+               associate (place => pieces%place(:, :sizes(k), n))
+                  middle = (12/sizes(k))*sum(int(place, lp), dim=2)/16  ! places are multiples of 32
+                  key(n) = ROW*middle(2) + middle(1)
+               end associate
+            end do
          end do
-      end do
-      pieces%n = n
-      order = sorted_places(key(:n))
-      order = order(sorted_places(int(pieces%root(order), lp)))
-      pieces%leaf = pieces%leaf(order)
-      pieces%root = pieces%root(order)
-      pieces%shape = pieces%shape(order)
-      pieces%place = pieces%place(:, :, order)
-   end subroutine list_pieces
+         pieces%n = n
+         order = sorted_places(key(:n))
+         order = order(sorted_places(int(pieces%root(order), lp)))
+         pieces%leaf = pieces%leaf(order)
+         pieces%root = pieces%root(order)
+         pieces%shape = pieces%shape(order)
+         pieces%place = pieces%place(:, :, order)
+      end subroutine list_pieces
+   end subroutine cut_mesh
 
    !> The corners of a leaf's pieces: as it is, or with a node m (and o) in the middle of sides that a neighbour has cut.
    !>

@@ -11,7 +11,7 @@ module atrito_build_model
    use atrito_build_elements, only: read_element_card, read_elgen_card
    use atrito_build_equations, only: build_equations
    use atrito_build_gmsh, only: read_mesh_nodes, read_mesh_elements
-   use atrito_build_lines, only: is_line_card, read_lines, read_curves, turn_elements
+   use atrito_build_lines, only: read_lines, read_curves, turn_elements
    use atrito_build_loads, only: build_loads
    use atrito_build_materials, only: build_materials
    use atrito_build_nodes, only: note_digits, read_node_card, read_fill_card
@@ -20,7 +20,7 @@ module atrito_build_model
    use atrito_build_requests, only: build_requests
    use atrito_build_rigid_bodies, only: build_rigid_bodies, make_solver_mesh
    use atrito_build_sets, only: try_set_card, read_set_card, read_copy_card
-   use atrito_build_springs, only: build_springs, is_spring_card
+   use atrito_build_springs, only: build_springs
    use atrito_build_steps, only: build_amplitudes, build_steps, open_step
    use atrito_build_supports, only: build_supports
    use atrito_build_surfaces, only: build_surfaces
@@ -36,7 +36,7 @@ module atrito_build_model
    use atrito_element_trees, only: element_trees_t, list_leaves
    use atrito_faces, only: chain_report_t, list_node_elements
    use atrito_found_contact, only: find_contact
-   use atrito_items, only: option_text
+   use atrito_items, only: option_text, makes_elements
    use atrito_kinds, only: ip, lp, wp
    use atrito_local_axes, only: read_local_axes
    use atrito_memory, only: available_memory
@@ -341,7 +341,8 @@ contains
       do i = 1, context%deck%n_cards
          select case (keyword_name(context%deck%cards(i)))
          case ('ELEMENT')
-            if (is_spring_card(context, context%deck%cards(i)) .or. is_line_card(context, context%deck%cards(i))) cycle
+            if (makes_elements(context%deck, context%deck%cards(i), 'SPRING') .or. &
+                makes_elements(context%deck, context%deck%cards(i), 'T3D')) cycle
             call read_element_card(i, context)
          case ('ELGEN')
             call read_elgen_card(i, context)

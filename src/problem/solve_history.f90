@@ -7,7 +7,7 @@
 !> points that do not come to rest when a loop does not converge.
 module atrito_solve_history
    use atrito_kinds, only: ip, wp
-   use atrito_iteration, only: iteration_t
+   use atrito_controls, only: iteration_t
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, FROZEN
    implicit none (type, external)
    private

@@ -3,7 +3,7 @@
 module atrito_show_loop
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_solution, only: contact_solution_t
-   use atrito_iteration, only: iteration_t
+   use atrito_controls, only: iteration_t
    use atrito_kinds, only: ip, wp, HUGE_REAL
    use atrito_page, only: page_t, add_heading, add_line, left, right
    use atrito_points, only: contact_points_t

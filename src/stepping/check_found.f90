@@ -4,7 +4,7 @@
 !> may be NaN), and text has no control characters. That is asked before anything is used.
 module atrito_check_found
    use atrito_element_table, only: POINT_COUNT
-   use atrito_iteration, only: iteration_t
+   use atrito_controls, only: iteration_t
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: find_element, find_node
    use atrito_model, only: rigid_body_name, step_t

@@ -46,7 +46,7 @@ contains
       if (i > 0) then
          call find_aggregate(model, call, TAKES(i), term, fault)
       else if (any(NODAL_FIELDS == name)) then
-         call find_of_node(model, call, findloc(NODAL_FIELDS == name, .true., dim=1), term, fault)
+         call find_of_node(findloc(NODAL_FIELDS == name, .true., dim=1))
       else if (any(POINT_FIELDS == name)) then
          fault%text = name//' has a value at each contact point'
          fault%expected = 'max('//name//', pair), min(...) or mean(...)'
@@ -95,6 +95,26 @@ contains
             if (.not. allocated(fault%text)) term%nu = model%interactions(model%pairs(term%pair)%interaction)%nu
          end if
       end subroutine find_of_pair
+
+      !> `u2(12)`, `rf2(BASE)`.
+      subroutine find_of_node(field)
+         integer, intent(in) :: field                   !< place in NODAL_FIELDS
+         character(len=:), allocatable :: form
+
+         form = call%name//'(node or set of one node), '//call%name//'(x, y), '//call%name//'(x, y, element set or instance)'
+         if (field >= FIRST_FORCE) then
+            form = call%name//'(node or set), the sum over the set'
+         else if (IS_POLAR(field)) then
+            form = call%name//'(x, y), '//call%name//'(x, y, xc, yc) about another centre than (0, 0), or a node or set for x, y'
+         end if
+         call find_nodes(model, call, 1, field, form, term, fault)
+         if (allocated(fault%text)) return
+         term%take = merge(TAKE_SUM, TAKE_ONE, field >= FIRST_FORCE)
+         if (term%take == TAKE_SUM .or. term%is_place .or. size(term%nodes) == 1) return
+         call put_place(call%arguments(1), fault)
+         fault%text = call%arguments(1)%text//' has '//to_text(size(term%nodes, kind=ip))//' nodes'
+         fault%expected = form//'; or mean('//call%name//', '//call%arguments(1)%text//'), min(...), max(...)'
+      end subroutine find_of_node
    end subroutine find_term
 
    !> The pair that an argument names, or the only one.
@@ -151,30 +171,6 @@ contains
          name = model%surfaces(merge(one%master, one%slave, one%is_exchanged))%name
       end associate
    end function slave_name
-
-   !> `u2(12)`, `rf2(BASE)`.
-   subroutine find_of_node(model, call, field, term, fault)
-      type(model_t), intent(in) :: model
-      type(call_t), intent(in) :: call
-      integer, intent(in) :: field                   !< place in NODAL_FIELDS
-      type(term_t), intent(inout) :: term
-      type(message_t), intent(inout) :: fault
-      character(len=:), allocatable :: form
-
-      form = call%name//'(node or set of one node), '//call%name//'(x, y), '//call%name//'(x, y, element set or instance)'
-      if (field >= FIRST_FORCE) then
-         form = call%name//'(node or set), the sum over the set'
-      else if (IS_POLAR(field)) then
-         form = call%name//'(x, y), '//call%name//'(x, y, xc, yc) about another centre than (0, 0), or a node or set for x, y'
-      end if
-      call find_nodes(model, call, 1, field, form, term, fault)
-      if (allocated(fault%text)) return
-      term%take = merge(TAKE_SUM, TAKE_ONE, field >= FIRST_FORCE)
-      if (term%take == TAKE_SUM .or. term%is_place .or. size(term%nodes) == 1) return
-      call put_place(call%arguments(1), fault)
-      fault%text = call%arguments(1)%text//' has '//to_text(size(term%nodes, kind=ip))//' nodes'
-      fault%expected = form//'; or mean('//call%name//', '//call%arguments(1)%text//'), min(...), max(...)'
-   end subroutine find_of_node
 
    !> `mean(u2, TOP)`, `max(pressure, 1)`.
    subroutine find_aggregate(model, call, take, term, fault)

@@ -1,6 +1,5 @@
-!> The runs of a study: at a level with an element, and once more with other regularisations.
-!>
-!> What a study is going to do: its quantities and its runs.
+!> What a study is going to do, its quantities and its runs; and the runs: at a level with an element, and once more with other
+!> regularisations.
 module atrito_study_runs
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use atrito_body_cache, only: body_cache_t

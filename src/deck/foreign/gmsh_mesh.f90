@@ -1,6 +1,6 @@
 !> A mesh as a file of Gmsh has it: nodes, elements of dimension 0 to 2 on the entities of a drawing, and physical groups of these.
 !>
-!> Words of a text, line by line: what the reader of Gmsh's files walks on. It keeps the first thing that is wrong, and where.
+!> Besides, the words of such a file, line by line, on which its reader walks: they keep the first thing that is wrong, and where.
 module atrito_gmsh_mesh
    use atrito_element_table, only: MOST_NODES
    use atrito_growth, only: make_room, resize

@@ -1,6 +1,5 @@
-!> The one table of all keywords that the program knows.
-!>
-!> How keywords, options and data lines are written: for messages, `atrito help` and the manual.
+!> The one table of all keywords that the program knows; and how keywords, options and data lines are written: for messages,
+!> `atrito help` and the manual.
 module atrito_keyword_table
    use atrito_keyword, only: keyword_t, choice_t, option_spec_t, form_t, item_t, ANY_NUMBER
    use atrito_keyword_lines, only: take_keyword_lines

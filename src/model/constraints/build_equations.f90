@@ -53,7 +53,7 @@ contains
                if (.not. ok) exit                     ! where the next one begins is not known
                terms = terms(pack([(j, j=1, size(terms, kind=ip))], terms%dof /= NO_DOF))
                if (size(terms) == 0) cycle
-               call order_sets(context, place, terms, ok)
+               call order_sets(terms)
                if (ok) call add_equations()
             end do
          end associate
@@ -91,6 +91,33 @@ contains
             end do
          end associate
       end subroutine add_equations
+
+      !> On a refined mesh the nodes of sets are put into the order of those of the first. Where all of a set move as one node that
+      !> is
+      !> no member of it, what is new between members and that node belongs to the set, too.
+      subroutine order_sets(terms)
+         type(term_t), intent(inout) :: terms(:)
+         integer(ip), allocatable :: nodes(:)
+         integer(ip) :: i
+
+         ok = .true.
+         if (.not. is_refined(context%refinement) .or. size(terms(1)%nodes) == 1) return
+         if (all([(size(terms(i)%nodes), i=2, size(terms, kind=ip))] == 1)) then
+            do i = 2, size(terms, kind=ip)
+               if (.not. is_idle_at(terms(i)%nodes(1), terms, context)) cycle
+               nodes = [terms(i)%nodes(1), terms(1)%nodes]
+               call add_nodes_between(context%model%mesh, context%refinement, nodes)
+               terms(1)%nodes = nodes(2:)
+            end do
+            return
+         end if
+         do i = 2, size(terms, kind=ip)
+            if (size(terms(i)%nodes) == 1 .or. size(terms(i)%nodes) /= size(terms(1)%nodes)) cycle
+            if (ok) call order_like(context%refinement, terms(1)%nodes, terms(i)%nodes, ok)
+         end do
+         if (.not. ok) call report_error(context%deck, place, 'E-REFINE', 'the new nodes of these sets have no partners', &
+                                         expected='sets along edges of elements, in the same order')
+      end subroutine order_sets
    end subroutine build_equations
 
    !> One equation: a line with the number of its terms, and the lines of these. k: first line, and on return the one behind.
@@ -198,35 +225,6 @@ contains
          ok = ok .and. all(good)
       end do
    end subroutine read_term_line
-
-   !> On a refined mesh the nodes of sets are put into the order of those of the first. Where all of a set move as one node that is
-   !> no member of it, what is new between members and that node belongs to the set, too.
-   subroutine order_sets(context, place, terms, ok)
-      type(build_context_t), intent(in) :: context
-      type(token_t), intent(in) :: place
-      type(term_t), intent(inout) :: terms(:)
-      logical, intent(out) :: ok
-      integer(ip), allocatable :: nodes(:)
-      integer(ip) :: i
-
-      ok = .true.
-      if (.not. is_refined(context%refinement) .or. size(terms(1)%nodes) == 1) return
-      if (all([(size(terms(i)%nodes), i=2, size(terms, kind=ip))] == 1)) then
-         do i = 2, size(terms, kind=ip)
-            if (.not. is_idle_at(terms(i)%nodes(1), terms, context)) cycle
-            nodes = [terms(i)%nodes(1), terms(1)%nodes]
-            call add_nodes_between(context%model%mesh, context%refinement, nodes)
-            terms(1)%nodes = nodes(2:)
-         end do
-         return
-      end if
-      do i = 2, size(terms, kind=ip)
-         if (size(terms(i)%nodes) == 1 .or. size(terms(i)%nodes) /= size(terms(1)%nodes)) cycle
-         if (ok) call order_like(context%refinement, terms(1)%nodes, terms(i)%nodes, ok)
-      end do
-      if (.not. ok) call report_error(context%deck, place, 'E-REFINE', 'the new nodes of these sets have no partners', &
-                                      expected='sets along edges of elements, in the same order')
-   end subroutine order_sets
 
    !> Whether an equation with a node in the place of its first one asks for nothing.
    logical function is_idle_at(node, terms, context)

@@ -7,7 +7,7 @@ module atrito_build_springs
    use atrito_diagnostics, only: report_error
    use atrito_id_map, only: id_map_t, add_id
    use atrito_incidence, only: list_holders
-   use atrito_items, only: get_integer, get_real, option_text, option_word
+   use atrito_items, only: get_integer, get_real, option_text, option_word, makes_elements
    use atrito_kinds, only: ip, wp
    use atrito_local_axes, only: dof_direction, has_local_axes
    use atrito_model, only: spring_t
@@ -18,7 +18,7 @@ module atrito_build_springs
    use atrito_strings, only: string_t, to_text
    implicit none (type, external)
    private
-   public :: build_springs, is_spring_card
+   public :: build_springs
 
    !> Springs while they are read: which set each belongs to, and where it stands.
    type :: reading_t
@@ -35,15 +35,6 @@ module atrito_build_springs
 
 contains
 
-   !> Whether an *ELEMENT card makes springs.
-   logical function is_spring_card(context, card)
-      type(build_context_t), intent(in) :: context     !< its deck has the card
-      type(card_t), intent(in) :: card                 !< of any keyword
-
-      is_spring_card = keyword_name(card) == 'ELEMENT'
-      if (is_spring_card) is_spring_card = index(option_word(context%deck, card, 'TYPE'), 'SPRING') == 1
-   end function is_spring_card
-
    !> Makes the springs of all *ELEMENT cards of type SPRING1, SPRING2 and SPRINGA, with directions and stiffnesses of *SPRING, and
    !> their rows among the bilateral ones.
    subroutine build_springs(context)
@@ -54,11 +45,11 @@ contains
 
       n = 0
       do i = 1, context%deck%n_cards
-         if (is_spring_card(context, context%deck%cards(i))) n = n + context%deck%cards(i)%n_lines
+         if (makes_elements(context%deck, context%deck%cards(i), 'SPRING')) n = n + context%deck%cards(i)%n_lines
       end do
       allocate (context%model%springs(n), reading%place(n), reading%set(n), reading%is_axial(n))
       do i = 1, context%deck%n_cards
-         if (.not. is_spring_card(context, context%deck%cards(i))) cycle
+         if (.not. makes_elements(context%deck, context%deck%cards(i), 'SPRING')) cycle
          call read_elements(context%deck%cards(i), context, reading)
       end do
       context%model%springs = context%model%springs(:reading%n)

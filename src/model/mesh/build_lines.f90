@@ -8,12 +8,12 @@ module atrito_build_lines
    use atrito_build_context, only: build_context_t, spoil_number, invalidate_name, keep_token, ids_text, has_errors
    use atrito_build_nodes, only: put_node_set
    use atrito_build_parts, only: add_curve, find_curve_faces, find_node_faces, nodes_of_no_face
-   use atrito_deck, only: card_t, token_t, token_text, line_item, is_id_token, is_empty_token, keyword_name
+   use atrito_deck, only: token_t, token_text, line_item, is_id_token, is_empty_token, keyword_name
    use atrito_diagnostics, only: report_error, report_note
    use atrito_faces, only: add_face, drop_repeated, face_list_t
    use atrito_growth, only: resize, number_list_t, add_number, add_numbers, numbers_of
    use atrito_id_map, only: add_id, find_id
-   use atrito_items, only: has_option, option_text, option_word
+   use atrito_items, only: has_option, option_text, option_word, makes_elements
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: signed_area, turned_nodes
    use atrito_model, only: surface_t
@@ -25,18 +25,9 @@ module atrito_build_lines
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: is_line_card, read_lines, is_line_item, turn_elements, read_curves, put_curve_surfaces, take_node_surface, add_surface
+   public :: read_lines, is_line_item, turn_elements, read_curves, put_curve_surfaces, take_node_surface, add_surface
 
 contains
-
-   !> *ELEMENT of lines.
-   logical function is_line_card(context, card)
-      type(build_context_t), intent(in) :: context     !< its deck has the card
-      type(card_t), intent(in) :: card                 !< of any keyword
-
-      is_line_card = keyword_name(card) == 'ELEMENT'
-      if (is_line_card) is_line_card = index(option_word(context%deck, card, 'TYPE'), 'T3D') == 1
-   end function is_line_card
 
    !> All lines of the deck, behind its nodes, and the sets that name them.
    subroutine read_lines(context)
@@ -47,7 +38,7 @@ contains
       logical :: found
 
       do i = 1, context%deck%n_cards
-         if (is_line_card(context, context%deck%cards(i))) call read_line_card(i, context)
+         if (makes_elements(context%deck, context%deck%cards(i), 'T3D')) call read_line_card(i, context)
       end do
       if (context%lines%ids%n == 0) return
       do i = 1, context%deck%n_cards
@@ -218,7 +209,7 @@ contains
       end associate
       if (turned == 0) return
       do e = 1, context%deck%n_cards
-         if (is_line_card(context, context%deck%cards(e))) exit
+         if (makes_elements(context%deck, context%deck%cards(e), 'T3D')) exit
       end do
       call report_note(context%deck, context%deck%cards(e)%place, 'N-TURNED', to_text(turned)//' elements ran clockwise and '// &
                        'are turned, and so are their faces S1, S2, ...')

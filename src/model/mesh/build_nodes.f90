@@ -1,6 +1,6 @@
 !> *NODE, *NGEN and *NFILL: the nodes of the mesh, in the order of the deck.
 !>
-!> Nodes and elements of data lines that are numbers alone, of which there is nothing to tell: all threads read them. A line that is
+!> Data lines of nodes and of elements that are numbers alone, of which there is nothing to tell, all threads read. A line that is
 !> anything else is left to who reads line by line and has the messages.
 module atrito_build_nodes
    use atrito_build_context, only: build_context_t, spoil_number, note_number, note_place

@@ -1,8 +1,6 @@
-!> What *SECTION PRINT and *PATH PRINT have in common: each data line draws a line through the bodies, and has a name in its step.
+!> Lines that *SECTION PRINT and *PATH PRINT draw through the bodies: each data line one, which has a name in its step.
 !>
-!> *SECTION PRINT: the cuts that a step asks for, and where they go through the bodies.
-!>
-!> *PATH PRINT: the lines and arcs that a step asks for, and the elements that hold their points.
+!> Of a cut: where it goes through the bodies. Of a path, a line or an arc: the elements that hold its points.
 module atrito_drawn_lines
    use atrito_bodies, only: bodies_t, find_bodies
    use atrito_body_names, only: name_bodies

@@ -4,7 +4,7 @@
 !> digit when the time has come; with one it is multiplied by it. A hydrostatic pressure whose level changes is the sum of two,
 !> one that goes and one that comes: what it does is linear in the pressure, and not in the level.
 !>
-!> Curves over time that multiply loads and displacements, and the times of the steps of a history.
+!> Besides, the curves over time themselves (amplitude_t), and the times of the steps of a history.
 module atrito_step_loads
    use atrito_kinds, only: ip, wp
    use atrito_load_lists, only: amplitude_of, scaled

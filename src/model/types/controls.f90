@@ -1,9 +1,10 @@
-!> How the outer loop goes: *CONTROLS of a deck, and what the program adds when it tries again.
+!> How the outer loop goes: *CONTROLS of a deck, and what the program adds when it tries again; and a linear solve of the contact line
+!> as a row of iterations.tab.
 module atrito_controls
    use atrito_kinds, only: ip, wp
    implicit none (type, external)
    private
-   public :: controls_t, METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON, METHOD_NAME, METHOD_EASED
+   public :: controls_t, METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON, METHOD_NAME, METHOD_EASED, iteration_t
 
    integer(ip), parameter :: METHOD_ANDERSON = 1, METHOD_PICARD = 2, METHOD_NEWTON = 3
    character(len=8), parameter :: METHOD_NAME(3) = ['ANDERSON', 'PICARD  ', 'NEWTON  ']
@@ -23,5 +24,16 @@ module atrito_controls
       logical :: is_rung = .false.                  !< tried before without a solution: the increment before is no start
       logical :: logs_solves = .false.              !< the states and forces of every linear solve are kept
    end type controls_t
+
+   !> One inner solve: a row of iterations.tab. Changes are relative to the largest value.
+   type :: iteration_t
+      integer(ip) :: step = 1, increment = 1         !< of the step, counted from 1
+      integer(ip) :: outer = 0, inner = 0            !< iteration of the outer loop, and solve in it, from 1
+      real(wp) :: change_displacement = 0.0_wp, change_pressure = 0.0_wp, change_friction = 0.0_wp !< since the solve before
+      integer(ip) :: open = 0, stick = 0, slip = 0   !< points of the line in each state
+      real(wp) :: residual = 0.0_wp                  !< |nu S_rho(p) - tau| / |tau|, of the last outer iteration
+   end type iteration_t
+
+contains
 
 end module atrito_controls

@@ -1,7 +1,7 @@
 !> What the solver found: filled by results/ and analysis/, read by tables/, fields/ and pictures/. No text layout here.
 module atrito_results
    use atrito_kinds, only: ip, lp, wp
-   use atrito_iteration, only: iteration_t
+   use atrito_controls, only: iteration_t
    use atrito_linear_quantity, only: quantity_bound_t
    use atrito_strings, only: string_t
    implicit none (type, external)
