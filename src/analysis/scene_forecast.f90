@@ -5,10 +5,10 @@
 !> their recovery works with. Left out are the certificate, a second form where the first finds no solution, and bodies kept for a
 !> next run. Of a scene that is distributed over processes it is asked elsewhere (distribution_t): this one's was then told.
 !>
-!> A history holds more than what one increment takes. Factors stay from one increment to the next, so stresses are recovered beside them. Three increments are whole at a time: the one
-!> that is completed, the one before, and the last that is printed; the others that are printed lie on the disk and leave their
-!> numbers here. Rows of tables are kept by increment and pair, and by iteration. How many increments there will be is known as far
-!> as none is cut or lengthened.
+!> A history holds more than what one increment takes. Factors stay from one increment to the next, so stresses are recovered beside
+!> them. Three increments are whole at a time: the one that is completed, the one before, and the last that is printed; the others
+!> that are printed lie on the disk and leave their numbers here. Rows of tables are kept by increment and pair, and by iteration.
+!> How many increments there will be is known as far as none is cut or lengthened.
 module atrito_scene_forecast
    use atrito_contact_form, only: CONTACT_SPARSE
    use atrito_element_table, only: BEST_OF, CORNERS_OF, DEGREE_OF, POINT_COUNT

@@ -26,6 +26,7 @@
 !> relation. So all of them are sums of what is given on the outline, without a system of equations.
 module atrito_airy_stress
    use atrito_kinds, only: ip, wp
+   use atrito_natural_places, only: cross
    use atrito_plane_state, only: COMPONENTS
    implicit none (type, external)
    private
@@ -340,11 +341,5 @@ contains
 
       after = 1 + mod(i, n)
    end function after
-
-   pure real(wp) function cross(a, b)
-      real(wp), intent(in) :: a(2), b(2)
-
-      cross = a(1)*b(2) - a(2)*b(1)
-   end function cross
 
 end module atrito_airy_stress

@@ -5,7 +5,7 @@ module atrito_natural_places
    use atrito_shape_functions, only: shape_gradients, shape_values
    implicit none (type, external)
    private
-   public :: is_affine, natural_place, take_gradients
+   public :: cross, is_affine, natural_place, take_gradients
 
    integer(ip), parameter :: MOST_STEPS = 20        !< of Newton's method
    real(wp), parameter :: ENOUGH = 1.0e-9_wp        !< its last step
@@ -102,8 +102,9 @@ contains
       end do
    end function natural_place
 
+   !> a1 b2 - a2 b1: positive where b lies to the left of a.
    pure real(wp) function cross(a, b)
-      real(wp), intent(in) :: a(2), b(2)
+      real(wp), intent(in) :: a(2), b(2) !< of any dimension
 
       cross = a(1)*b(2) - a(2)*b(1)
    end function cross

@@ -145,7 +145,9 @@ contains
       type(page_t), intent(inout) :: page           !< gets lines of HTML
       character(len=*), intent(in) :: name          !< of the table, without ending
       type(table_top_t), intent(in) :: top          !< of read_top
-      integer(ip) :: shown, first
+      type(string_t) :: cells(SIDE_BY_SIDE)
+      character(len=:), allocatable :: dimension
+      integer(ip) :: shown, first, n, row, k
       integer :: i
 
       call add_line(page, '<div class="whole">')
@@ -159,7 +161,18 @@ contains
          call add_element(page, 'p', 'The table has no rows.')
       else if (top%table%n_columns > MOST_COLUMNS) then   ! a row of the file becomes a column
          do first = 1, shown, SIDE_BY_SIDE
-            call add_turned(page, name, top, first, min(shown, first + SIDE_BY_SIDE - 1))
+            n = min(shown - first + 1, SIDE_BY_SIDE)
+            call begin_rows(page, name, .false.)
+            call add_line(page, '<tbody>')
+            do k = 1, top%table%n_columns           ! a line: its name, its dimension, its values
+               dimension = ''
+               if (size(top%dimensions) == top%table%n_columns) dimension = top%dimensions(k)%s
+               do row = 1, n
+                  cells(row)%s = shown_item(top, k, first + row - 1)
+               end do
+               call add_named_row(page, top%table%columns(k)%s, dimension, cells(:n))
+            end do
+            call end_rows(page)
          end do
       else
          call add_upright(page, name, top, shown)
@@ -207,29 +220,6 @@ contains
       text = ''
       if (dimension /= '-' .and. dimension /= 'mixed' .and. len(dimension) > 0) text = '['//dimension//']'
    end function unit_text
-
-   !> A line a column of the file: its name, its dimension, its values.
-   subroutine add_turned(page, name, top, first, last)
-      type(page_t), intent(inout) :: page
-      character(len=*), intent(in) :: name
-      type(table_top_t), intent(in) :: top
-      integer(ip), intent(in) :: first, last        !< rows of the file
-      type(string_t) :: cells(first:last)
-      character(len=:), allocatable :: dimension
-      integer(ip) :: row, i
-
-      call begin_rows(page, name, .false.)
-      call add_line(page, '<tbody>')
-      do i = 1, top%table%n_columns
-         dimension = ''
-         if (size(top%dimensions) == top%table%n_columns) dimension = top%dimensions(i)%s
-         do row = first, last
-            cells(row)%s = shown_item(top, i, row)
-         end do
-         call add_named_row(page, top%table%columns(i)%s, dimension, cells)
-      end do
-      call end_rows(page)
-   end subroutine add_turned
 
    !> A row of cells behind its name and its dimension.
    pure subroutine add_named_row(page, name, dimension, cells)

@@ -54,7 +54,7 @@ contains
          call add_fact(report%facts, 'loads, sum along 1 and 2', force_text(last%balance, last%balance%applied(:2)))
          call add_fact(report%facts, 'support reactions, sum', force_text(last%balance, last%balance%reactions(:2)))
          if (maxval(abs(last%balance%rigid(:2))) > 0.0_wp) call add_fact(report%facts, 'upon rigid surfaces, sum', &
-                                                                     force_text(last%balance, last%balance%rigid(:2)))
+                                                                         force_text(last%balance, last%balance%rigid(:2)))
          points = ''                                ! `, 7 contact points in 1 pair`
          if (allocated(last%scene%pairs)) then
             if (size(last%scene%pairs) > 0) points = ', '//plural(sum(last%scene%pairs%n_points), 'contact point', &

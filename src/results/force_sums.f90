@@ -1,5 +1,5 @@
-!> Sums of forces: over all nodes of the bodies, chunk by chunk of the nodes; over each body and each joint; and of bilateral rows, of
-!> which those of inclined supports are reactions, while those of springs and equations may go to the ground.
+!> Sums of forces: over all nodes of the bodies, chunk by chunk of the nodes; over each body and each joint; and of bilateral rows,
+!> of which those of inclined supports are reactions, while those of springs and equations may go to the ground.
 module atrito_force_sums
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use atrito_assembly, only: fem_t
@@ -56,8 +56,8 @@ contains
       work = work_of(1_ip, [sum(works)], [unit])
    end subroutine sum_forces
 
-   !> Of a run of nodes the resultants of loads, reactions and contact, and the work of loads and reactions on the displacements over
-   !> the unit.
+   !> Of a run of nodes the resultants of loads, reactions and contact, and the work of loads and reactions on the displacements
+   !> over the unit.
    pure subroutine sum_run(x, u, per_unit, f, reaction, contact, balance, work)
       real(wp), intent(in) :: x(:, :), u(:, :), per_unit, f(:, :), reaction(:, :), contact(:, :)
       type(balance_t), intent(out) :: balance

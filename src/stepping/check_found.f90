@@ -349,7 +349,7 @@ contains
       integer(ip) :: i
 
       associate (n => data%fem%bodies%n - data%fem%bodies%n_rigid)
-         call require(wrong, merge(has_length(bodies, n), .not. allocated(bodies), is_asked), 'bodies')
+         call require(wrong, merge(has_length(bodies, n),.not. allocated(bodies), is_asked), 'bodies')
       end associate
       if (allocated(wrong) .or. .not. allocated(bodies)) return
       do i = 1, size(bodies, kind=ip)
@@ -406,7 +406,7 @@ contains
       character(len=:), allocatable, intent(inout) :: wrong
       integer :: i
 
-      call require(wrong, merge(has_length(list, size(names)), .not. allocated(list), size(names) > 0), 'observed')
+      call require(wrong, merge(has_length(list, size(names)),.not. allocated(list), size(names) > 0), 'observed')
       if (allocated(wrong) .or. .not. allocated(list)) return
       call require(wrong, all([(list(i)%name == names(i)%s, i=1, size(names))]), 'observed')
       call require(wrong,.not. is_any_infinite(list%value), 'observed')

@@ -36,26 +36,7 @@ contains
    end subroutine begin_memory
 
    !> Takes a converged increment over: rest slips, dissipation, and what each point has slipped since the one before.
-   pure subroutine remember_slips(line, tau, contact, memory)
-      type(contact_line_t), intent(in) :: line            !< laws of the points are read
-      real(wp), intent(in) :: tau(:)                 !< (points) friction bound that it was solved with [F/L^2]
-      type(contact_result_t), intent(inout) :: contact(:) !< one a pair
-      type(slip_memory_t), intent(inout) :: memory        !< takes the increment over
-      integer(ip) :: i, j, first
-
-      first = 0
-      do i = 1, size(contact, kind=ip)
-         associate (c => contact(i))
-            c%slip_increment = c%slip - memory%slip(first + 1:first + c%n)
-            memory%moved(i) = max(memory%moved(i), maxval(abs(c%u)), maxval(abs(c%slip)))
-            do j = 1, c%n
-               call remember_point(line, tau(first + j), c, j, first + j, memory, memory%dissipation(i))
-            end do
-            first = first + c%n
-         end associate
-      end do
-   end subroutine remember_slips
-
+   !>
    !> What counts is the friction bound, not the pressure: the nonlocal law has one at open points beside closed ones, too.
    !>
    !>     state of the point                rest slip s0 after the increment      dissipated
@@ -67,33 +48,43 @@ contains
    !> to this one in a straight line, so the mean is that of both. A point that began to slide had come to its bound before s0
    !> changed, so t is the friction of all of its way. With a law that has a memory t and the change of s0 have one sign: nothing
    !> is given back.
-   pure subroutine remember_point(line, tau, c, j, k, memory, dissipation)
-      type(contact_line_t), intent(in) :: line
-      real(wp), intent(in) :: tau                    !< friction bound that the increment was solved with [F/L^2]
-      type(contact_result_t), intent(in) :: c
-      integer(ip), intent(in) :: j, k                !< place in the pair, and on the line
-      type(slip_memory_t), intent(inout) :: memory
-      real(wp), intent(inout) :: dissipation         !< of the pair [F L]
+   pure subroutine remember_slips(line, tau, contact, memory)
+      type(contact_line_t), intent(in) :: line            !< laws of the points are read
+      real(wp), intent(in) :: tau(:)                 !< (points) friction bound that it was solved with [F/L^2]
+      type(contact_result_t), intent(inout) :: contact(:) !< one a pair
+      type(slip_memory_t), intent(inout) :: memory        !< takes the increment over
+      integer(ip) :: i, j, k, first                  ! place in the pair, and on the line
       real(wp) :: rest, t, mean
       logical :: slides
 
-      t = -c%shear(j)
-      rest = memory%rest(k)
-      slides = abs(t) > 0.0_wp .and. is_full(t, tau)
-      if (line%law(k)%kind == FRICTION_NONE .or. c%weighted_pressure(j) <= 0.0_wp) then
-         rest = c%slip(j)
-      else if (slides) then
-         rest = c%slip(j) - stick_compliance(line%law(k), tau)*t
-         ! it slid on from the force that it had, or began to slide in this increment
-         mean = t
-         if (memory%slides(k) .and. t*memory%shear(k) > 0.0_wp) mean = 0.5_wp*(t + memory%shear(k))
-         dissipation = dissipation + c%weight(j)*mean*(rest - memory%rest(k))
-      end if
-      memory%slides(k) = slides
-      memory%rest(k) = rest
-      memory%slip(k) = c%slip(j)
-      memory%shear(k) = t
-   end subroutine remember_point
+      first = 0
+      do i = 1, size(contact, kind=ip)
+         associate (c => contact(i))
+            c%slip_increment = c%slip - memory%slip(first + 1:first + c%n)
+            memory%moved(i) = max(memory%moved(i), maxval(abs(c%u)), maxval(abs(c%slip)))
+            do j = 1, c%n
+               k = first + j
+               t = -c%shear(j)
+               rest = memory%rest(k)
+               slides = abs(t) > 0.0_wp .and. is_full(t, tau(k))
+               if (line%law(k)%kind == FRICTION_NONE .or. c%weighted_pressure(j) <= 0.0_wp) then
+                  rest = c%slip(j)
+               else if (slides) then
+                  rest = c%slip(j) - stick_compliance(line%law(k), tau(k))*t
+                  ! it slid on from the force that it had, or began to slide in this increment
+                  mean = t
+                  if (memory%slides(k) .and. t*memory%shear(k) > 0.0_wp) mean = 0.5_wp*(t + memory%shear(k))
+                  memory%dissipation(i) = memory%dissipation(i) + c%weight(j)*mean*(rest - memory%rest(k))
+               end if
+               memory%slides(k) = slides
+               memory%rest(k) = rest
+               memory%slip(k) = c%slip(j)
+               memory%shear(k) = t
+            end do
+            first = first + c%n
+         end associate
+      end do
+   end subroutine remember_slips
 
    !> The contact line learns the rest slips of its laws, and how far its pairs have moved.
    pure subroutine put_rest(memory, line)

@@ -4,7 +4,7 @@ module atrito_grid
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use atrito_kinds, only: ip, wp
    use atrito_page, only: page_t, add_blank, add_line, add_paragraph, left, number, text_width
-   use atrito_strings, only: append_string, string_t, to_text
+   use atrito_strings, only: append_string, count_symbol, string_t, to_text
    use atrito_table, only: table_t, KIND_INTEGER, KIND_REAL, KIND_WORD
    use atrito_table_text, only: fetch_integers, fetch_reals
    use atrito_model, only: name_units
@@ -53,10 +53,7 @@ contains
       integer, allocatable :: ends(:, :), width(:)
       integer :: first, last, i, k, n
 
-      n = 1
-      do i = 1, len(grid%rows(1)%s)
-         if (grid%rows(1)%s(i:i) == CELL) n = n + 1
-      end do
+      n = 1 + int(count_symbol(grid%rows(1)%s, CELL))
       allocate (ends(0:n, size(grid%rows)), width(n))
       width = 0
       do i = 1, size(grid%rows)

@@ -2,7 +2,7 @@
 module atrito_listing
    use atrito_as_run_names, only: as_run_name
    use atrito_kinds, only: ip, wp
-   use atrito_strings, only: string_t, join, replaced, to_text
+   use atrito_strings, only: string_t, count_symbol, join, replaced, to_text
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
    use atrito_status, only: status_t
    use atrito_files, only: file_set_t, text_file_t, open_text, put_line, close_text, NEW_LINE_CHARACTER
@@ -224,23 +224,13 @@ contains
 
       if (.not. allocated(model%as_run)) return
       call take_ends(model%as_run(1)%text, ROOM, front, back)
-      if (len(back) == 0 .and. line_count(front) > MOST_LINES) back = front
+      if (len(back) == 0 .and. count_symbol(front, NEW_LINE_CHARACTER) > MOST_LINES) back = front
       call add_heading(page, 'THE DECK AS IT WAS RUN')
       call add_lines(page, front, 1, merge(MOST_LINES/2, MOST_LINES, len(back) > 0))
       if (len(back) == 0) return
       call add_line(page, '... the lines between are in '//as_run_name(model%deck_name))
-      call add_lines(page, back, line_count(back) - MOST_LINES/2 + 1, huge(1))
+      call add_lines(page, back, int(count_symbol(back, NEW_LINE_CHARACTER)) - MOST_LINES/2 + 1, huge(1))
    end subroutine add_deck
-
-   pure integer function line_count(text)
-      character(len=*), intent(in) :: text
-      integer :: i
-
-      line_count = 0
-      do i = 1, len(text)
-         if (text(i:i) == NEW_LINE_CHARACTER) line_count = line_count + 1
-      end do
-   end function line_count
 
    !> Some lines of a text.
    subroutine add_lines(page, text, first, last)
