@@ -274,7 +274,6 @@ contains
       logical, intent(out) :: has_changed
       real(wp) :: arm(rows%n)                       ! size of a body in lengths of the point
       real(wp) :: largest(rows%n), force(rows%n)    ! that each row bears or may bear by friction
-      type(motion_rows_t) :: rest                   ! with the work of what is left without the small forces
       logical :: is_sure(rows%n), is_due            ! larger forces than those that are dropped in any case
       real(wp), allocatable :: more(:, :)
       integer(ip) :: i
@@ -312,11 +311,9 @@ contains
       if (.not. is_due) return
       call find_idle(rows, is_sure, group, more)
       if (size(more, 2) <= size(idle, 2)) return
-      rest = rows
-      call add_transposed(rows, -1.0_wp, merge(solution%state%q, 0.0_wp, is_sure .or. .not. holds), rest%work)
-      associate (most => matmul(more, matmul(rest%work, more))) ! in which they work most
-         if (.not. is_within_digits(data, rest, most, merge(solution%state%q, 0.0_wp, is_sure))) return
-         call take_out(data, work_along(rest, more))
+      associate (most => matmul(more, matmul(rows%work, more))) ! in which the loads work most
+         if (.not. is_within_digits(data, rows, most, merge(solution%state%q, 0.0_wp, is_sure))) return
+         call take_out(data, work_along(rows, more))
       end associate
       has_changed = .true.
    end subroutine doubt_loads

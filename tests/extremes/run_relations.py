@@ -3,7 +3,7 @@
 run_relations.py ATRITO RANDOM_SCENES FIRST LAST SEED [-j N] [--folder DIR] [--only N,N,..] [--which RELATION,..] [--mixed] [options of atrito]
 
 Scene K is one of random_scenes, a history of one (histories.py) or a curved one (curved_scenes.py), in turn; with --mixed all are those of mixed_scenes.py. Its deck is run, and then
-turned, mirrored, in other units (of a curved scene with all digits), with other numbers; with every solver, in both forms, with
+turned, mirrored, in other units (of a curved scene with all digits, of others with all of them at places that have few), with other numbers; with every solver, in both forms, with
 two threads; with an empty step behind it, its step in two, and begun again by --restart. Exit codes and W-IDLE must be the same, and
 all numbers of nodes.tab, reactions.tab, stress.tab (its invariants, point by point) and contact.tab to 1e-9 of the largest of their
 column (of a pair in contact.tab), after they were turned back. Where a deck with all digits differs more, or another one by less than 1e-5, or by any part where the program tells that
