@@ -229,14 +229,15 @@ contains
       type(results_t), intent(inout) :: results            !< with the scene; get what is no stress
       real(wp), allocatable :: contact(:, :)
       type(equilibrium_t) :: equilibrium
+      type(contact_sizes_t) :: sizes
       real(wp) :: imbalance, others(3)
 
       contact = contact_forces(data%fem, data%rows, data%line, solution)
       call move_alloc(u, results%u)
       allocate (results%reaction, mold=results%u)
-      call check_equilibrium(data%fem, results%u, data%f, contact, data%held, results%reaction, equilibrium, &
-                             sizes_at_points(data, solution), data%thermal)
-      imbalance = check_balance(data%fem, data%f, contact, data%rows, data%had)
+      sizes = sizes_at_points(data, solution)
+      call check_equilibrium(data%fem, results%u, data%f, contact, data%held, results%reaction, equilibrium, sizes, data%thermal)
+      imbalance = check_balance(data%fem, data%f, contact, data%rows, data%had, sizes%force)
       results%strain_energy = elastic_energy(data%fem, results%u, equilibrium%energy)
       if (allocated(data%step%requests%cuts)) then          ! rigid motions would cost digits
          call sum_cuts(data, moment_t(results%step_time, results%time), results%u, results%reaction - contact, results%cuts)
