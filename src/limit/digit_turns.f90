@@ -27,14 +27,15 @@ module atrito_digit_turns
 contains
 
    !> Turns the rows; has_changed: they are others now, and what was made of them is given back: solve again.
-   subroutine turn_rows(data, rows, group, is_sure, has_changed)
+   subroutine turn_rows(data, rows, group, is_sure, near, has_changed)
       type(scene_data_t), intent(inout) :: data     !< its rows may change
-      type(motion_rows_t), intent(in) :: rows       !< whose doubt is noted
+      type(motion_rows_t), intent(inout) :: rows    !< whose doubt is noted; of the turned rows
       integer(ip), intent(in) :: group(:)           !< (k)
       logical, intent(in) :: is_sure(:)             !< (m) rows that bear more than what is in doubt
+      real(wp), allocatable, intent(out) :: near(:, :) !< (k, motions) V
       logical, intent(out) :: has_changed
       type(motion_rows_t) :: turned
-      real(wp), allocatable :: near(:, :), normals(:, :), tangents(:, :)
+      real(wp), allocatable :: normals(:, :), tangents(:, :)
       real(wp) :: angle(rows%n), last(rows%n), sum_of(rows%n)
       integer(ip) :: i, n, turn
 
@@ -72,6 +73,8 @@ contains
          data%rows%tangent = tangents
          return
       end if
+      turned%doubt = rows%doubt
+      rows = turned
       call drop_assembled(data)
       if (allocated(data%flexibility)) deallocate (data%flexibility)
       if (allocated(data%certificate)) deallocate (data%certificate)
