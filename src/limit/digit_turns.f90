@@ -26,6 +26,7 @@ module atrito_digit_turns
    integer(ip), parameter :: MOST_TURNS = 8_ip
    integer(ip), parameter :: MOST_EQUATIONS = 1000_ip !< of a step; their least squares take the cube of it
    real(wp), parameter :: LEAST_TURN = 1.0e-13_wp
+   real(wp), parameter :: LEAST_RATE = 1.0e-11_wp   !< that a row sees of a motion of length one: rounding
    real(wp), parameter :: DEPENDENT = 5.0e-3_wp     !< of the largest rate: less may be what the digits show
 
 contains
@@ -70,6 +71,11 @@ contains
          if (size(near, 2) < n) exit
       end do
       has_changed = has_changed .and. turn > 1
+      do i = 1, n                                            ! lines of force that should meet may miss each other as well
+         if (.not. has_changed) exit
+         call multiply_rows(turned, near(:, i), angle)
+         has_changed = maxval(abs(angle), mask=is_sure) <= LEAST_RATE
+      end do
       if (.not. has_changed) then
          data%rows%normal = normals
          data%rows%tangent = tangents
