@@ -237,7 +237,7 @@ contains
       allocate (results%reaction, mold=results%u)
       sizes = sizes_at_points(data, solution)
       call check_equilibrium(data%fem, results%u, data%f, contact, data%held, results%reaction, equilibrium, sizes, data%thermal)
-      imbalance = check_balance(data%fem, data%f, contact, data%rows, data%had, sizes%force)
+      imbalance = check_balance(data%fem, data%f, contact, data%rows, data%had, sizes)
       results%strain_energy = elastic_energy(data%fem, results%u, equilibrium%energy)
       if (allocated(data%step%requests%cuts)) then          ! rigid motions would cost digits
          call sum_cuts(data, moment_t(results%step_time, results%time), results%u, results%reaction - contact, results%cuts)
