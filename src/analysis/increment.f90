@@ -54,7 +54,7 @@ module atrito_increment
    !> Entries of C to go through where either form may be taken: with 400 unknown forces 900 linear solves, with 100 15,000.
    real(wp), parameter :: MOST_ENTRIES = 1.5e8_wp
 
-   integer, parameter :: MOST_CHANGES = 3                  !< of loads that hang on the digits of the deck
+   integer, parameter :: MOST_CHANGES = 6                  !< of loads that hang on the digits of the deck
 
 contains
 

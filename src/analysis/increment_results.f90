@@ -223,9 +223,9 @@ contains
       type(results_t), intent(inout) :: results            !< with the scene; get what is no stress
       real(wp), allocatable :: contact(:, :)
       type(equilibrium_t) :: equilibrium
+      type(contact_sizes_t) :: sizes
       real(wp) :: imbalance, others(3)
       integer(ip) :: first(data%fem%bodies%n + 1), b
-      type(contact_sizes_t) :: sizes
 
       contact = contact_forces(data%fem, data%rows, data%line, solution)
       call move_alloc(u, results%u)
@@ -237,9 +237,8 @@ contains
       sizes%had = data%had
       first = first_motions(data%fem%bodies)
       sizes%motion = [(sum(abs(solution%state%a(first(b):first(b + 1) - 1))), b=1, data%fem%bodies%n)]
-      call check_equilibrium(data%fem, results%u, data%f, contact, data%held, results%reaction, equilibrium, &
-                             sizes, data%thermal)
-      imbalance = check_balance(data%fem, data%f, contact, data%rows, data%had)
+      call check_equilibrium(data%fem, results%u, data%f, contact, data%held, results%reaction, equilibrium, sizes, data%thermal)
+      imbalance = check_balance(data%fem, data%f, contact, data%rows, data%had, sizes)
       results%strain_energy = elastic_energy(data%fem, results%u, equilibrium%energy)
       if (allocated(data%step%requests%cuts)) then          ! rigid motions would cost digits
          call sum_cuts(data, moment_t(results%step_time, results%time), results%u, results%reaction - contact, results%cuts)

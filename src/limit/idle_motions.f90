@@ -272,7 +272,6 @@ contains
       real(wp), intent(in) :: tau(:)                !< friction bounds at the points [F/L^2]
       type(contact_solution_t), intent(in) :: solution
       logical, intent(out) :: has_changed
-      real(wp) :: arm(rows%n)                       ! size of a body in lengths of the point
       real(wp) :: largest(rows%n), force(rows%n)    ! that each row bears or may bear by friction
       logical :: is_sure(rows%n), is_due            ! larger forces than those that are dropped in any case
       real(wp), allocatable :: more(:, :)
@@ -290,11 +289,7 @@ contains
                     data%line%law(data%line%point)%kind == FRICTION_NONE)*largest)) return
       call note_digits(data%fem, data%rows, data%line, rows)
       if (.not. any(rows%doubt > 0.0_wp)) return
-      ! by their arms small forces balance what tilted normals of large ones make
-      arm = [(maxval([1.0_wp, data%fem%bodies%list(rows%body(rows%column(rows%first(i):rows%first(i + 1) - 1)))%size &
-                      /data%rows%reach(data%line%point(i))]), i=1, rows%n)]
-      is_sure = holds .and. (force > min(MOST_BALANCE, rows%doubt*arm)*largest .or. .not. rows%doubt > 0.0_wp)
-      if (any(holds .and. .not. is_sure)) call turn_rows(data, rows, group, is_sure, has_changed)
+      call free_turned_motions(data, rows, group, holds, largest, force, solution, has_changed)
       if (has_changed) return
       is_sure = holds
       is_due = .false.
@@ -317,6 +312,41 @@ contains
       end associate
       has_changed = .true.
    end subroutine doubt_loads
+
+   !> Turns rows that hold motions by digits alone (atrito_digit_turns), and takes out what loads work on these then, where that is
+   !> no more than the digits make.
+   subroutine free_turned_motions(data, rows, group, holds, largest, force, solution, has_changed)
+      type(scene_data_t), intent(inout) :: data
+      type(motion_rows_t), intent(inout) :: rows    !< whose doubt is noted
+      integer(ip), intent(in) :: group(:)           !< (k)
+      logical, intent(in) :: holds(:)               !< (m)
+      real(wp), intent(in) :: largest(:), force(:)  !< (m) of the bodies of each row, and its own [F]
+      type(contact_solution_t), intent(in) :: solution
+      logical, intent(out) :: has_changed
+      real(wp), allocatable :: free(:, :)
+      real(wp) :: arm                               ! size of a body in lengths of the point
+      logical :: is_sure(rows%n)
+      integer(ip) :: i
+
+      has_changed = .false.
+      is_sure = holds
+      do i = 1, rows%n
+         if (.not. (holds(i) .and. rows%doubt(i) > 0.0_wp) .or. rows%first(i + 1) == rows%first(i)) cycle
+         associate (bodies => rows%body(rows%column(rows%first(i):rows%first(i + 1) - 1)))
+            arm = max(1.0_wp, maxval(data%fem%bodies%list(bodies)%size)/data%rows%reach(data%line%point(i)))
+         end associate
+         ! by their arms small forces balance what tilted normals of large ones make
+         is_sure(i) = force(i) > min(MOST_BALANCE, rows%doubt(i)*arm)*largest(i)
+      end do
+      if (all(is_sure .eqv. holds)) return
+      call turn_rows(data, rows, group, is_sure, free, has_changed)
+      if (.not. has_changed) return
+      associate (most => matmul(free, matmul(rows%work, free)))
+         if (is_within_digits(data, rows, most, merge(solution%state%q, 0.0_wp, is_sure))) then
+            call take_out(data, work_along(rows, free))
+         end if
+      end associate
+   end subroutine free_turned_motions
 
    !> Of each motion, how many its group has.
    pure function members_of(group) result(n)

@@ -114,9 +114,9 @@ contains
       end do
    end function rate_of_point
 
-   !> The work h' on the motions of the bodies that is to be taken out where the loads are to do none on the motions V: the least with
-   !> V'h' = V'h among those that leave bodies without loads as they are, h' = P V s, P taking the loaded bodies, V'P V s = V'h;
-   !> or, where these have next to no part in the motions, of all of them.
+   !> The work h' on the motions of the bodies that is to be taken out where the loads are to do none on the motions V: the least
+   !> with V'h' = V'h that leaves bodies without loads as they are, h' = P V s, P taking the loaded bodies, V'P V s = V'h; or,
+   !> where these have next to no part in the motions, the least of all, h' = V V'h.
    function work_along(rows, motions) result(work)
       type(motion_rows_t), intent(in) :: rows       !< h
       real(wp), intent(in) :: motions(:, :)         !< (k, motions) V, columns of length one, each across the others

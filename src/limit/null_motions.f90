@@ -19,8 +19,8 @@ contains
    !> v is idle when G_i v = 0 for all rows i that hold, so when v'A v = 0 with A = sum_i G_i'G_i, which is positive semidefinite:
    !> the idle motions of a group are the eigenvectors of its A whose eigenvalue is zero. A row has entries in one group alone, so a
    !> group with g motions takes g^3 operations whatever there is beside it. Eigenvalues are squares of what the rows see of a
-   !> motion of length one, which is why NULL_MOTION, beside the largest, is a part of 1e-7 in lengths. By the digits of the deck each
-   !> row may see a part of a motion that it would not: then v'A v is no more than the sum of their squares.
+   !> motion of length one, which is why NULL_MOTION, beside the largest, is a part of 1e-7 in lengths. By the digits of the deck
+   !> each row may see a part of a motion that it would not: then v'A v is no more than the sum of their squares.
    subroutine find_idle(rows, holds, group, idle, doubt)
       type(motion_rows_t), intent(in) :: rows
       logical, intent(in) :: holds(:)               !< (m)

@@ -14,7 +14,7 @@ module atrito_final_check
    use atrito_results, only: results_t
    use atrito_strings, only: to_text
    use atrito_threads, only: is_shared, chunk_count, find_chunk
-   use atrito_weak_forces, only: contact_sizes_t, motion_round_off, weak_parts_hold
+   use atrito_weak_forces, only: contact_sizes_t, forces_of_bodies, motion_round_off, weak_parts_hold
    implicit none (type, external)
    private
    public :: check_equilibrium, check_balance, check_law, equilibrium_t
@@ -38,7 +38,7 @@ module atrito_final_check
    real(wp), parameter :: ROUND_OFFS = 100.0_wp          !< times eps |K||u_e|
    real(wp), parameter :: BALANCE_TOLERANCE = 1.0e-8_wp  !< of the sum of the forces on a body
    real(wp), parameter :: ROW_TOLERANCE = 1.0e-9_wp      !< of what a bilateral row asks for
-   real(wp), parameter :: ROUND_OFF_BESIDE = 1.0e-13_wp  !< of the forces on a body that touches one without load
+   real(wp), parameter :: ROUND_OFF_BESIDE = 1.0e-14_wp  !< of the forces on a body that touches one without load
 
 contains
 
@@ -148,11 +148,12 @@ contains
    !>
    !> Z_j is the motion at the free dofs. What cancels in the sum is thereby measured by what it is the sum of. Bodies without a
    !> load of their own have forces of the others' round-off alone, which is why it is spread to them first.
-   real(wp) function check_balance(fem, f, contact, rows, had) result(worst)
+   real(wp) function check_balance(fem, f, contact, rows, had, sizes) result(worst)
       type(fem_t), intent(in) :: fem                 !< its bodies, and their rigid motions
       real(wp), intent(in) :: f(:, :), contact(:, :) !< (2, n_nodes) [F]
       type(contact_rows_t), intent(in), optional :: rows !< what touches; without it nothing does
       type(had_t), intent(in), optional :: had  !< of the increments before
+      type(contact_sizes_t), intent(in), optional :: sizes !< of rows that may leave nothing of each other
       real(wp) :: work(3, fem%bodies%n), size_of_work(fem%bodies%n), around(fem%bodies%n)
       logical :: is_loaded(fem%bodies%n)
       integer(ip) :: b, j
@@ -161,6 +162,7 @@ contains
       do b = 1, fem%bodies%n
          call add_up_body(fem, fem%bodies%list(b), f, contact, work(:, b), size_of_work(b))
       end do
+      if (present(sizes)) size_of_work = max(size_of_work, forces_of_bodies(fem, sizes))
       around = size_of_work
       do b = 1, fem%bodies%n
          is_loaded(b) = any(abs(f(:, fem%bodies%list(b)%nodes)) > 0.0_wp)

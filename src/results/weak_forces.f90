@@ -8,7 +8,7 @@ module atrito_weak_forces
    use atrito_kinds, only: ip, wp, EPS_MACH
    implicit none (type, external)
    private
-   public :: contact_sizes_t, motion_round_off, weak_parts_hold
+   public :: contact_sizes_t, forces_of_bodies, motion_round_off, weak_parts_hold
 
    !> The forces at the contact points, and how far rigid motions take the bodies.
    type :: contact_sizes_t
@@ -87,6 +87,24 @@ contains
       end do
    end function uncertain_part
 
+   !> The largest force of a row that each body takes part in [F].
+   pure function forces_of_bodies(fem, sizes) result(forces)
+      type(fem_t), intent(in) :: fem
+      type(contact_sizes_t), intent(in) :: sizes
+      real(wp) :: forces(fem%bodies%n), largest(0:fem%bodies%n)
+      integer(ip) :: j, k
+
+      largest = 0.0_wp
+      do j = 1, sizes%rows%n
+         do k = sizes%rows%first(j), sizes%rows%first(j + 1) - 1
+            associate (most => largest(fem%bodies%of_node(sizes%rows%node(k))))
+               most = max(most, sizes%force(j))
+            end associate
+         end do
+      end do
+      forces = largest(1:)
+   end function forces_of_bodies
+
    !> Each body by the largest load, contact force or reaction at a node of it, or force of a row that it takes part in: rows of a
    !> node, as of contact and of a rigid body, may leave nothing of each other.
    pure logical function bodies_hold(fem, f, contact, held, residual, sizes, round_off) result(holds)
@@ -95,17 +113,10 @@ contains
       logical, intent(in) :: held(:, :)
       type(contact_sizes_t), intent(in) :: sizes
       real(wp), intent(in) :: round_off(:, :)    !< (2, n_nodes), or (2, 1) for all [F]
-      real(wp) :: force, excess, of_rows(0:fem%bodies%n)
-      integer(ip) :: b, i, j
+      real(wp) :: force, excess, of_rows(fem%bodies%n)
+      integer(ip) :: b, i
 
-      of_rows = 0.0_wp
-      do j = 1, sizes%rows%n
-         do i = sizes%rows%first(j), sizes%rows%first(j + 1) - 1
-            associate (most => of_rows(fem%bodies%of_node(sizes%rows%node(i))))
-               most = max(most, sizes%force(j))
-            end associate
-         end do
-      end do
+      of_rows = forces_of_bodies(fem, sizes)
       holds = .true.
       do b = 1, fem%bodies%n
          force = of_rows(b)

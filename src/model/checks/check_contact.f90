@@ -23,8 +23,8 @@ module atrito_check_contact
 
    real(wp), parameter :: FACING = -1.0e-3_wp          !< cosine of normals of faces that see each other (atrito_master)
 
-   !> Distance of slave nodes over that of the master's from which on NODAL points are too few: of faces with two nodes 3 elements on
-   !> 2 are not; of those with three only the finer side has enough of them, since their forces are not those of a uniform pressure.
+   !> Distance of slave nodes over that of the master's from which on NODAL points are too few: of faces with two nodes 3 elements
+   !> on 2 are not; of those with three only the finer side has enough, since their forces are not those of a uniform pressure.
    real(wp), parameter :: COARSE(2) = [1.6_wp, 0.8_wp]
 
 contains

@@ -186,9 +186,9 @@ done
 # A bar that hangs on a disc: what the digits make of the disc's load is taken out of that alone, and the bar stays without a load, in either form.
 for nu in 0 0.3; do
    for digits in 6 8 17; do
-      # of 8 digits the sparse form by itself does not come to rest
+      # of 8 digits the sparse form by itself does not always come to rest
       [ $digits = 8 ] && forms=dense || forms='dense sparse'
-      for angle in 0 30 114.6; do
+      for angle in 0 30 57.3 114.6; do
          for form in $forms; do
             name=hinged-$nu-$digits-$angle-$form
             awk -v digits=$digits -v angle=$angle -v nu=$nu -f "$here/hinged.awk" </dev/null >"$name.inp"
