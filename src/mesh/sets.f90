@@ -1,12 +1,12 @@
 !> Named lists of nodes or elements. A set named again grows; members are kept once, in the order in which they came.
 !>
-!> They are kept as runs of neighbours (ranges_t): a thousand sets that name a block of a million elements are a thousand runs. What is
-!> added is put behind the others as it is, and looked through for what stands there twice when the list has doubled: so a list that
-!> grows number by number takes n log n operations.
+!> They are kept as runs of neighbours (ranges_t): a thousand sets that name a block of a million elements are a thousand runs.
+!> What is added is put behind the others as it is, and looked through for what stands there twice when the list has doubled: so a
+!> list that grows number by number takes n log n operations.
 !>
-!> A name of nodes means those of a node set, of the elements of an element set, or that in a corner or a middle of a block. The last
-!> two have no set of their own, since few of them are asked for: they are found by the node sets of the four sides, <block>-BOTTOM,
-!> -RIGHT, -TOP and -LEFT.
+!> A name of nodes means those of a node set, of the elements of an element set, or that in a corner or a middle of a block. The
+!> last two have no set of their own, since few of them are asked for: they are found by the node sets of the four sides,
+!> <block>-BOTTOM, -RIGHT, -TOP and -LEFT.
 module atrito_sets
    use atrito_growth, only: resize
    use atrito_kinds, only: ip, lp, wp

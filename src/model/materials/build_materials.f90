@@ -188,8 +188,9 @@ contains
             ! Other programs print stresses along the axes of the material.
             if (ok) then
                what = ' turns nothing that is isotropic, and stresses are along x and y'
-               if (context%model%materials(section%material)%is_orthotropic) &
+               if (context%model%materials(section%material)%is_orthotropic) then
                   what = ' turns the material; stresses are along x and y'
+               end if
                call report_note(context%deck, place, 'N-ORIENTATION', 'the orientation '//name//what, keyword='ORIENTATION')
             end if
          end if

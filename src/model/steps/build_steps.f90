@@ -1,5 +1,5 @@
-!> *STEP and *STATIC: the steps of the history, and how each goes through its time. *AMPLITUDE: curves over time, and which of them a
-!> card of supports or loads follows.
+!> *STEP and *STATIC: the steps of the history, and how each goes through its time. *AMPLITUDE: curves over time, and which of them
+!> a card of supports or loads follows.
 module atrito_build_steps
    use atrito_step_loads, only: time_before
    use atrito_build_context, only: build_context_t, place_text, count_cards, define_name, invalidate_name

@@ -1,5 +1,5 @@
-!> How the outer loop goes: *CONTROLS of a deck, and what the program adds when it tries again; and a linear solve of the contact line
-!> as a row of iterations.tab.
+!> How the outer loop goes: *CONTROLS of a deck, and what the program adds when it tries again; and a linear solve of the contact
+!> line as a row of iterations.tab.
 module atrito_controls
    use atrito_kinds, only: ip, wp
    implicit none (type, external)
