@@ -62,7 +62,7 @@ class Result:
         self.path, self.text, self.options = path, text, options
         self.code, said, _ = run(settings.atrito, path, self.folder, [*settings.options, *options])
         deck = Deck(text)
-        self.load, self.least = deck.largest_load(), deck.least_motion()
+        self.load, self.least, self.stiffness = deck.largest_load(), deck.least_motion(), deck.stress_of_motion()
         self.is_idle = 'W-IDLE' in said
         self.is_undecided = self.code == 3 and 'too near the limit' in said
         self.tells_digits = 'differences of coordinates' in said
@@ -92,7 +92,7 @@ def largest_difference(first, other, back):
     far = max((np.abs(first.tables['nodes'][c]).max(initial=0.0) for c in 'xy'), default=0.0) if 'nodes' in first.tables else 0.0
     contact = first.tables.get('contact')  # which an overlap makes without any load
     force = 0.0 if contact is None else np.abs(contact['pressure']*contact['weight']).max(initial=0.0)
-    floor = {'reactions': LITTLE*max(first.load, force), 'stress': 0.0, 'contact': max(LITTLE*u, DIGITS*EPS*far/EXACT), 'nodes': LITTLE*first.least}
+    floor = {'reactions': LITTLE*max(first.load, force), 'stress': DIGITS*EPS*first.stiffness*u/EXACT, 'contact': max(LITTLE*u, DIGITS*EPS*far/EXACT), 'nodes': LITTLE*first.least}
     for name, table in first.tables.items():
         if name not in other.tables:
             return math.inf, f'{name}.tab is missing'
@@ -129,7 +129,7 @@ def compare_nodes(a, b, back, columns, floor):
     yield (np.abs(here - there).max(initial=0.0)/scale if scale > 0 else 0.0), columns[0][0]
 
 
-def compare_stresses(a, b, back, *_):
+def compare_stresses(a, b, back, _, floor):
     """Half of the trace, the largest shear and what lies across the plane, at the points nearest."""
     for key in sorted(set(zip(a['step'], a['increment']))):
         i, j = (np.flatnonzero((t['step'] == key[0]) & (t['increment'] == key[1]) | back.is_last) for t in (a, b))
@@ -141,7 +141,7 @@ def compare_stresses(a, b, back, *_):
         for what, of in (('trace', lambda t, k: t['s11'][k] + t['s22'][k]), ('s33', lambda t, k: t['s33'][k]),
                          ('shear', lambda t, k: np.hypot(0.5*(t['s11'][k] - t['s22'][k]), t['s12'][k]))):
             x, y = of(a, i), of(b, j)*back.length**2/back.force
-            scale = max(*(np.abs(a[c][i]).max(initial=0.0) for c in ('s11', 's22', 's12')), np.abs(y).max(initial=0.0))
+            scale = max(*(np.abs(a[c][i]).max(initial=0.0) for c in ('s11', 's22', 's12')), np.abs(y).max(initial=0.0), floor)
             if scale > 0:
                 yield np.abs(x - y).max()/scale, what
 
