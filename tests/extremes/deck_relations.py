@@ -62,10 +62,10 @@ class Deck:
         return max(loads + [size_of(row[2])*size for _, _, data in self.each('DSLOAD') for row in data], default=0.0)
 
     def stress_of_motion(self):
-        """What a strain of one over the size of the scene does: by its round-off a body that moves without strain has stresses."""
-        places = [[float(word) for word in row[1:3]] for _, _, data in self.each('NODE') for row in data]
-        size = max(max(x) - min(x) for x in zip(*places))
-        return max((abs(float(data[0][0])) for _, _, data in self.each('ELASTIC')), default=0.0)/size
+        """What a motion of one node against the next does: by its round-off a body that moves without strain has stresses."""
+        place = {row[0]: (float(row[1]), float(row[2])) for _, _, data in self.each('NODE') for row in data}
+        edges = [math.dist(place[row[1]], place[row[2]]) for _, _, data in self.each('ELEMENT') for row in data if len(row) > 3]
+        return max((abs(float(data[0][0])) for _, _, data in self.each('ELASTIC')), default=0.0)/min(edges)
 
     def least_motion(self):
         """The order of what its loads do to the stiffest body."""
