@@ -9,6 +9,7 @@ module atrito_idle_motions
    use atrito_bound_qp, only: FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_certificate, only: certificate_t, BALANCE_IMPOSSIBLE
    use atrito_contact_line, only: friction_bound
+   use atrito_contact_scales, only: had_force, NONE_OF_HAD
    use atrito_contact_solution, only: contact_solution_t
    use atrito_digit_turns, only: turn_rows
    use atrito_friction_law, only: FRICTION_NONE
@@ -18,6 +19,7 @@ module atrito_idle_motions
    use atrito_motion_rows, only: motion_rows_t, build_motion_rows, note_digits, join_motions, MOST_PART
    use atrito_null_motions, only: find_idle, MOST_MOTIONS
    use atrito_own_axes, only: prove_in_own_axes
+   use atrito_range, only: largest_at
    use atrito_scene_data, only: scene_data_t
    use atrito_sparse_rows, only: add_transposed, multiply_rows, transposed_sizes
    implicit none (type, external)
@@ -57,6 +59,7 @@ contains
       type(motion_rows_t) :: rows
       logical :: holds(size(solution%state%state))  ! rows that hold motions
       real(wp) :: tau(data%line%n)                  ! friction bounds at the points [F/L^2]
+      real(wp) :: none(0:data%fem%bodies%n)         ! forces on bodies that are none [F]
       integer(ip), allocatable :: group(:)
       logical :: may_change, is_open(size(solution%state%state)) ! rows of which nothing is known to hold them
       real(wp), allocatable :: idle(:, :), off(:), metric(:, :, :)
@@ -68,7 +71,8 @@ contains
       call build_motion_rows(data%fem, data%rows, data%line, data%f, rows)
       if (rows%n_columns == 0) return
       tau = friction_bound(data%line, max(solution%p, 0.0_wp))
-      holds = [(is_holding(data, solution, tau, i), i=1, rows%n)]
+      none = left_of_forces(data)
+      holds = [(is_holding(data, solution, tau, none, i), i=1, rows%n)]
       call join_motions(rows, holds, group)
       call find_idle(rows, holds, group, idle)
       if (may_change) call clear_idle_loads(data, rows, idle, solution, again)
@@ -166,18 +170,33 @@ contains
    end subroutine let_slip_on
 
    !> Whether an unknown holds a motion: it takes a force, or would take one of either sign.
-   pure logical function is_holding(data, solution, tau, i)
+   pure logical function is_holding(data, solution, tau, none, i)
       type(scene_data_t), intent(in) :: data
       type(contact_solution_t), intent(in) :: solution
       real(wp), intent(in) :: tau(:)                !< friction bounds at the points [F/L^2]
+      real(wp), intent(in) :: none(0:)              !< (bodies) forces that are none [F]
       integer(ip), intent(in) :: i                  !< unknown force
 
       associate (state => solution%state, line => data%line)
          is_holding = state%state(i) == FREE
          if (.not. is_holding .or. line%point(i) > line%n - line%n_bilateral) return
-         is_holding = merge(state%q(i), tau(line%point(i)), line%normal(line%point(i)) == i) > 0.0_wp
+         is_holding = merge(state%q(i), tau(line%point(i))*line%weight(line%point(i)), line%normal(line%point(i)) == i) > &
+                      maxval(none(data%fem%bodies%of_node(data%rows%node(data%rows%first(line%point(i)): &
+                                                                         data%rows%first(line%point(i) + 1) - 1))))
       end associate
    end function is_holding
+
+   !> (0:bodies) The round-off of what was on a body that has no load any more [F].
+   pure function left_of_forces(data) result(none)
+      type(scene_data_t), intent(in) :: data
+      real(wp) :: none(0:data%fem%bodies%n)
+      integer(ip) :: b
+
+      none = 0.0_wp
+      do b = 1, data%fem%bodies%n
+         if (largest_at(data%f, data%fem%bodies%list(b)%nodes) <= 0.0_wp) none(b) = NONE_OF_HAD*had_force(data%had, b)
+      end do
+   end function left_of_forces
 
    !> Where no solution was found since a motion went on that the loads drive: takes its work out of the loads, where it is no more
    !> than what the digits of the deck make of them; with friction of the loads alone, since forces that wedge may be of any size.

@@ -29,6 +29,7 @@ module atrito_multiplier_distance
       real(wp) :: forces = 0.0_wp                !< |q - q_o|
       real(wp) :: bound = 0.0_wp                 !< |nu S_rho(p) - tau|
       real(wp) :: pull = 0.0_wp                  !< kappa |a - a_o|
+      real(wp) :: pull_beside = 0.0_wp           !< the same over no less than a part IDLE of the forces on bodies that it touches
       real(wp) :: drive = 0.0_wp                 !< the same over the largest force of the scene
    end type distance_t
 
@@ -66,9 +67,10 @@ contains
       distance%bound = bound_distance()
       ! bodies without load that went clear of each other have nothing that a pull could be compared with
       if (all(system%load == 0.0_wp) .and. all(abs(q) <= multipliers%noise)) return
+      distance%pull = pull_distance(of_body)
       distance%drive = pull_distance(spread(maxval(of_body), 1, size(of_body)))
       call raise_to_neighbours(system, IDLE, of_body)
-      distance%pull = pull_distance(of_body)
+      distance%pull_beside = pull_distance(of_body)
 
    contains
 
