@@ -305,7 +305,7 @@ contains
          end associate
       end do
       if (.not. any(holds .and. force > NO_FORCE*largest .and. force <= merge(MOST_BALANCE, MOST_PART, &
-                    data%line%law(data%line%point)%kind == FRICTION_NONE)*largest)) return
+                                                              data%line%law(data%line%point)%kind == FRICTION_NONE)*largest)) return
       call note_digits(data%fem, data%rows, data%line, rows)
       if (.not. any(rows%doubt > 0.0_wp)) return
       call free_turned_motions(data, rows, group, holds, largest, force, solution, has_changed)

@@ -36,7 +36,7 @@ contains
       real(wp), intent(in) :: v(:)                  !< (k) its amplitudes
       real(wp), intent(in) :: q(:)                  !< (m) forces of the rows, 0: of those that do not hold [F]
       real(wp) :: allowed, most, sizes(rows%n_columns), turn(0:data%fem%bodies%n)
-      integer(ip) :: first(data%fem%bodies%n + 1), b, i, j, k
+      integer(ip) :: first(data%fem%bodies%n + 1), b, i, j
 
       first = first_motions(data%fem%bodies)
       allowed = 0.0_wp
