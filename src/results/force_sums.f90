@@ -62,15 +62,22 @@ contains
       real(wp), intent(in) :: x(:, :), u(:, :), per_unit, f(:, :), reaction(:, :), contact(:, :)
       type(balance_t), intent(out) :: balance
       real(wp), intent(out) :: work
+      real(wp) :: applied(3), reactions(3), rigid(3)
       integer(ip) :: i
 
       work = 0.0_wp
+      applied = 0.0_wp
+      reactions = 0.0_wp
+      rigid = 0.0_wp
       do i = 1, size(x, 2, kind=ip)
-         balance%applied = balance%applied + about_origin(x(:, i), f(:, i))
-         balance%reactions = balance%reactions + about_origin(x(:, i), reaction(:, i))
-         balance%rigid = balance%rigid + about_origin(x(:, i), contact(:, i))
+         applied = applied + about_origin(x(:, i), f(:, i))
+         reactions = reactions + about_origin(x(:, i), reaction(:, i))
+         rigid = rigid + about_origin(x(:, i), contact(:, i))
          work = work + ((f(1, i) + reaction(1, i))*(u(1, i)*per_unit) + (f(2, i) + reaction(2, i))*(u(2, i)*per_unit))
       end do
+      balance%applied = applied
+      balance%reactions = reactions
+      balance%rigid = rigid
    end subroutine sum_run
 
    !> A force at x, and its moment about the origin x1 F2 - x2 F1.

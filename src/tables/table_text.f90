@@ -301,32 +301,41 @@ contains
       integer, intent(in) :: digits
       integer(ip), intent(in) :: before            !< rows before the first of them
       character(len=*), intent(out) :: lines(:)    !< (rows), PIECE_ROWS of them at most
-      real(wp) :: x(PIECE_ROWS)
-      integer(ip) :: k(PIECE_ROWS), row, n
+      integer(ip) :: row
       integer :: i
 
-      n = size(lines, kind=ip)
       lines = ''
-      do row = 1, n
+      do row = 1, size(lines, kind=ip)
          lines(row) (len(lines):) = NEW_LINE_CHARACTER
       end do
       do i = 1, size(table%columns)
-         associate (column => table%columns(i))
-            select case (column%kind)
-            case (KIND_REAL)
-               call fetch_reals(table, column, before, x(:n))
-               call put_reals(x(:n), column%zero, digits, column%first, column%last, lines)
-            case (KIND_INTEGER)
-               call fetch_integers(table, column, before, k(:n))
-               call put_integers(k(:n), column%first, column%last, lines)
-            case (KIND_WORD)
-               do row = 1, n
-                  call put_word(column%words(before + row)%s, column%on_the_left, lines(row) (column%first:column%last))
-               end do
-            end select
-         end associate
+         call format_column(table, table%columns(i), digits, before, lines)
       end do
    end subroutine format_rows
+
+   subroutine format_column(table, column, digits, before, lines)
+      type(table_t), intent(in) :: table
+      type(column_t), intent(in) :: column
+      integer, intent(in) :: digits
+      integer(ip), intent(in) :: before
+      character(len=*), intent(inout) :: lines(:)
+      real(wp) :: x(PIECE_ROWS)
+      integer(ip) :: k(PIECE_ROWS), row, n
+
+      n = size(lines, kind=ip)
+      select case (column%kind)
+      case (KIND_REAL)
+         call fetch_reals(table, column, before, x(:n))
+         call put_reals(x(:n), column%zero, digits, column%first, column%last, lines)
+      case (KIND_INTEGER)
+         call fetch_integers(table, column, before, k(:n))
+         call put_integers(k(:n), column%first, column%last, lines)
+      case (KIND_WORD)
+         do row = 1, n
+            call put_word(column%words(before + row)%s, column%on_the_left, lines(row) (column%first:column%last))
+         end do
+      end select
+   end subroutine format_column
 
    !> The values of some rows of a column, before + 1 and the following: its own, or those of the field that it points at.
    pure subroutine fetch_reals(table, column, before, x)
