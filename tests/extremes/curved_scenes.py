@@ -605,11 +605,16 @@ def split_round(m, body, centre):
     mesh = m.scene.bodies[body].mesh
     curve = next(curve for side, curve in mesh.outline.values() if side == 'OUTSIDE')
     mesh.outline['west'], mesh.outline['east'] = ('OUTSIDE-WEST', curve), ('OUTSIDE-EAST', Arc(curve.centre, curve.radius, 1))
+    middles = {}
     for key, piece in list(mesh.faces.items()):
         if mesh.outline[piece][0] == 'OUTSIDE':
             a, b = (mesh.x[i] - centre for i in mesh.face_nodes(*key)[:2])
+            middles[key] = 0.5*(a + b)
             if max(a[1], b[1]) < 0.3*curve.radius:
-                mesh.faces[key] = 'west' if 0.5*(a + b)[0] < 0 else 'east'
+                mesh.faces[key] = 'west' if middles[key][0] < 0 else 'east'
+    for side, sign in ('west', -1), ('east', 1):
+        if side not in mesh.faces.values():                 # its faces are long: the lowest of them
+            mesh.faces[min((key for key in middles if sign*middles[key][0] > 0), key=lambda key: middles[key][1])] = side
 
 
 def roller_in_groove(m):
