@@ -248,9 +248,8 @@ contains
          end if
          ok = outcome == NUMBER_OK
          if (ok .and. .not. (is_whole .or. abs(value) > 0.0_wp)) then
-            if (scan(text(:scan(text//'e', 'eEdD') - 1), '123456789') > 0) then
-               call report_note(deck, token, 'N-ZERO', text//' is less than the smallest real: it is 0', keyword=keyword)
-            end if
+            if (scan(text(:scan(text//'e', 'eEdD') - 1), '123456789') > 0) call report_note(deck, token, 'N-ZERO', &
+                                                                  text//' is less than the smallest real: it is 0', keyword=keyword)
          end if
          if (ok) return
          noun = trim(merge('an integer', 'a real    ', is_whole))

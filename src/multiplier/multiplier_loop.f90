@@ -474,16 +474,14 @@ contains
       real(wp) :: whole, least
 
       ! a pull below NO_LOAD of the forces on its body is none
-      whole = max(loop%distance%forces, loop%distance%bound)
-      least = whole
-      if (loop%distance%pull > NO_LOAD) whole = max(whole, loop%distance%pull)
-      if (loop%distance%pull_beside > NO_LOAD) least = max(least, loop%distance%pull_beside)
+      least = max(loop%distance%forces, loop%distance%bound)
+      whole = max(least, merge(loop%distance%pull, 0.0_wp, loop%distance%pull > NO_LOAD))
+      least = max(least, merge(loop%distance%pull_beside, 0.0_wp, loop%distance%pull_beside > NO_LOAD))
       solution%converged = multipliers%settled .and. whole <= tolerance
       call note_residual(loop%progress, outer, whole)
       ! what pulls at an idle body may be the round-off of the forces beside it, which does not fall
-      if (multipliers%settled .and. outer - loop%progress%best_outer >= STALE .and. least <= STALE_DISTANCE) then
-         solution%converged = .true.
-      end if
+      solution%converged = solution%converged .or. (multipliers%settled .and. outer - loop%progress%best_outer >= STALE .and. &
+                                                    least <= STALE_DISTANCE)
       ! a weak pull counts where the forces have come to rest
       loop%steady = merge(loop%steady + 1_ip, 0_ip, loop%distance%drive > STEADY_PULL*loop%drive .and. loop%distance%drive > &
                           merge(MOVES_SLOWLY, MOVES, loop%distance%forces <= LITTLE_LEFT))
