@@ -1,5 +1,4 @@
 !> Values of items and options: what the model's constructors ask of a deck. Failures are reported here, at their place.
-!>
 !> Besides, the expressions that stand in a deck: the parameters that they may use, and their faults at their places.
 module atrito_items
    use atrito_deck, only: deck_t, card_t, option_t, token_t, token_text, part_of, is_empty_token, is_quoted, keyword_name, &
