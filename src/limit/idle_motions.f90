@@ -46,7 +46,7 @@ contains
    !>        doubt_small_forces): 2 once more, or the increment once more
    !>     4. closed points without a force count as open, sticking ones without a bound as without friction
    !>     5. of all displacements u + V s the ones nearest to those of the increment before (take_least)
-   !>     6. after a long way, what its rounding has put off in the rows that hold (atrito_long_ways)
+   !>     6. after a long way, what its rounding has put off in the rows that hold (take_rounding_off)
    !>
    !> 4 to 6 leave all forces as they are, since idle motions work with none of them. They choose which of the many displacements
    !> with these forces is told, the same one whatever the form of the contact system and its solver.
